@@ -1,0 +1,44 @@
+# Compiler settings shared by every target, and the rule "a folder is a library".
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+
+find_program(SCENEC_CCACHE ccache)
+if(SCENEC_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${SCENEC_CCACHE})
+endif()
+
+add_library(scenec_options INTERFACE)
+# No fused multiply-add behind our back and no fast-math: watertight kernels and equal bytes on
+# every CPU depend on it (docs/decisions, numerics rules).
+target_compile_options(scenec_options INTERFACE
+  -ffp-contract=off -fno-fast-math
+  -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wnon-virtual-dtor
+  -Wold-style-cast -Woverloaded-virtual -Wnull-dereference -Wimplicit-fallthrough -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+  # g++ 12 reports false positives of these from inlined library code at -O2.
+  target_compile_options(scenec_options INTERFACE
+    -Wno-null-dereference -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized
+    -Wno-stringop-overread -Wno-dangling-pointer)
+endif()
+if(SCENEC_SANITIZE)
+  target_compile_options(scenec_options INTERFACE -fsanitize=${SCENEC_SANITIZE} -fno-omit-frame-pointer -g)
+  target_link_options(scenec_options INTERFACE -fsanitize=${SCENEC_SANITIZE})
+endif()
+
+# Third-party headers are system headers: their warnings are not ours.
+function(scenec_library name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  add_library(scenec_${name} STATIC ${sources})
+  target_include_directories(scenec_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  target_link_libraries(scenec_${name} PUBLIC scenec_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()

@@ -1,0 +1,31 @@
+// Text to lossless tree. Parsing never fails: broken text becomes error nodes and diagnostics, and
+// every byte stays in the tree.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "base/diagnostic.hpp"
+#include "grammar/syntax_tree.hpp"
+
+namespace scenec::grammar {
+
+enum class Dialect : std::uint8_t { sdl, course };
+
+struct ParseLimits {
+  std::uint32_t nesting = 256;            // blocks and brackets
+  std::uint32_t token = 64u << 10;        // bytes of one token other than a string or comment
+  std::uint32_t string = 1u << 20;        // bytes of one string
+  std::uint64_t file = 512ull << 20;      // bytes of one file
+};
+
+// Both run in time linear in the text and in stack space bounded by the nesting limit. A limit hit
+// is one error; what follows it is one error node.
+[[nodiscard]] SyntaxTree parse_sdl(FileId file, std::string_view text, DiagnosticSink& sink, const ParseLimits& limits = {});
+[[nodiscard]] SyntaxTree parse_course(FileId file, std::string_view text, DiagnosticSink& sink, const ParseLimits& limits = {});
+
+// A `.sdl` extension or a first statement `sdl N;` says native; all else is course.
+[[nodiscard]] Dialect dialect_of(std::string_view path, std::string_view text);
+
+}  // namespace scenec::grammar
