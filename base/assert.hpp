@@ -8,5 +8,6 @@ namespace scenec {
 
 }  // namespace scenec
 
-#define SCENEC_ASSERT(condition) \
-  (static_cast<bool>(condition) ? void(0) : ::scenec::assertion_failed(#condition, __FILE__, __LINE__))
+#define SCENEC_ASSERT(condition)          \
+  (static_cast<bool>(condition) ? void(0) \
+                                : ::scenec::assertion_failed(#condition, __FILE__, __LINE__))

@@ -12,6 +12,7 @@ namespace scenec {
 // directory, `path` itself is no directory, device or read-only file. Returns what is wrong.
 [[nodiscard]] std::optional<std::string> find_output_problem(const std::string& path);
 // Returns what went wrong ("no space left on device"); nothing partial is left behind.
-[[nodiscard]] std::optional<std::string> write_file_atomically(const std::string& path, std::string_view bytes);
+[[nodiscard]] std::optional<std::string> write_file_atomically(const std::string& path,
+                                                               std::string_view bytes);
 
 }  // namespace scenec

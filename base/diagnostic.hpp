@@ -26,8 +26,9 @@ enum class DiagnosticKind : std::uint16_t {
 
 struct DiagnosticKindInfo {
   DiagnosticKind kind;
-  std::string_view name;         // identifier of the row, with '-' for '_': names the golden case and `@allow`
-  std::string_view code;         // "E0123", "L0456": stable for ever
+  std::string_view
+      name;  // identifier of the row, with '-' for '_': names the golden case and `@allow`
+  std::string_view code;  // "E0123", "L0456": stable for ever
   Severity severity;
   std::string_view title;        // one line
   std::string_view explanation;  // what `scenec explain CODE` prints below the title

@@ -36,7 +36,8 @@ class FileSystem {
   virtual ~FileSystem() = default;
   // Reads a regular file of at most `size_limit` bytes. Never blocks on FIFOs or devices (opened
   // non-blocking, then the descriptor is checked).
-  [[nodiscard]] virtual Result<FileContent, FileError> read(const std::string& path, std::uint64_t size_limit) = 0;
+  [[nodiscard]] virtual Result<FileContent, FileError> read(const std::string& path,
+                                                            std::uint64_t size_limit) = 0;
   [[nodiscard]] virtual bool is_file(const std::string& path) = 0;
 };
 
@@ -78,9 +79,10 @@ class RecordingFileSystem final : public FileSystem {
 
 // Lexical path work (no access to the disk). `/` separates; the results are normalised.
 [[nodiscard]] std::string normalized_path(std::string_view path);
-[[nodiscard]] std::string directory_of(std::string_view path);                 // "" for a bare name
-[[nodiscard]] std::string joined_path(std::string_view directory, std::string_view path);  // absolute `path` wins
+[[nodiscard]] std::string directory_of(std::string_view path);  // "" for a bare name
+[[nodiscard]] std::string joined_path(std::string_view directory,
+                                      std::string_view path);  // absolute `path` wins
 [[nodiscard]] std::string relative_path(std::string_view path, std::string_view directory);
-[[nodiscard]] std::string extension_of(std::string_view path);                 // lower case, with the dot
+[[nodiscard]] std::string extension_of(std::string_view path);  // lower case, with the dot
 
 }  // namespace scenec

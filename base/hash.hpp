@@ -38,7 +38,7 @@ class Hasher {
   void add(double value);
   void add(Hash128 value);
   template <class T>
-    requires std::integral<T> || std::is_enum_v<T>
+  requires std::integral<T> || std::is_enum_v<T>
   void add(T value) {
     const auto wide = static_cast<std::uint64_t>(value);
     raw(&wide, sizeof wide);
@@ -54,7 +54,7 @@ class Hasher {
 
 template <>
 struct std::hash<scenec::Hash128> {
-  std::size_t operator()(const scenec::Hash128& hash) const noexcept {
-    return static_cast<std::size_t>(hash.low);
+  std::size_t operator()(const scenec::Hash128& value) const noexcept {
+    return static_cast<std::size_t>(value.low);
   }
 };

@@ -11,8 +11,8 @@ namespace scenec {
 
 class ThreadPool {
  public:
-  // `threads` = 0 takes the hardware's number. The calling thread works too: a pool of 1 starts none.
-  // If threads cannot be started the pool has fewer.
+  // `threads` = 0 takes the hardware's number. The calling thread works too: a pool of 1 starts
+  // none. If threads cannot be started the pool has fewer.
   explicit ThreadPool(unsigned threads = 0);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -23,7 +23,8 @@ class ThreadPool {
   // taken in order by whichever worker is free; after a stop request no new index is begun.
   // Returns true when every index was done. An exception of `body` is rethrown here.
   // Must not be called from inside `body`.
-  bool for_each(std::size_t count, const std::function<void(std::size_t, unsigned)>& body, std::stop_token stop = {});
+  bool for_each(std::size_t count, const std::function<void(std::size_t, unsigned)>& body,
+                std::stop_token stop = {});
 
  private:
   struct Impl;

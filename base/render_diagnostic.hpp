@@ -14,6 +14,7 @@ struct RenderOptions {
   std::size_t max_source_width = 200;  // longer source lines are cut round the caret
 };
 
-[[nodiscard]] std::string render_terminal(const Diagnostic& diagnostic, const SourceMap& sources, const RenderOptions& options);
+[[nodiscard]] std::string render_terminal(const Diagnostic& diagnostic, const SourceMap& sources,
+                                          const RenderOptions& options);
 
 }  // namespace scenec

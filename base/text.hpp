@@ -22,9 +22,11 @@ namespace scenec {
 
 // The candidate nearest to `word` by edit distance (case-insensitive, transpositions count one), or
 // nullopt when none is near enough to be a plausible typing mistake.
-[[nodiscard]] std::optional<std::string_view> nearest_name(std::string_view word, std::span<const std::string_view> candidates);
+[[nodiscard]] std::optional<std::string_view> nearest_name(
+    std::string_view word, std::span<const std::string_view> candidates);
 // "a, b, c" with back quotes round each; at most `limit` names, then "and 7 more".
-[[nodiscard]] std::string quoted_list(std::span<const std::string_view> names, std::size_t limit = 24);
+[[nodiscard]] std::string quoted_list(std::span<const std::string_view> names,
+                                      std::size_t limit = 24);
 // `text` with control characters escaped and cut to `limit` code points (…): safe in a message.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 80);
 // The string in double quotes with the language's escapes.

@@ -43,11 +43,21 @@ struct Quantity {
   double value = 0;
   friend constexpr auto operator<=>(const Quantity&, const Quantity&) = default;
 };
-struct LengthTag { static constexpr Dimension dimension = dimension::length; };
-struct AngleTag { static constexpr Dimension dimension = dimension::angle; };
-struct TimeTag { static constexpr Dimension dimension = dimension::time; };
-struct PowerTag { static constexpr Dimension dimension = dimension::power; };
-struct TemperatureTag { static constexpr Dimension dimension = dimension::temperature; };
+struct LengthTag {
+  static constexpr Dimension dimension = dimension::length;
+};
+struct AngleTag {
+  static constexpr Dimension dimension = dimension::angle;
+};
+struct TimeTag {
+  static constexpr Dimension dimension = dimension::time;
+};
+struct PowerTag {
+  static constexpr Dimension dimension = dimension::power;
+};
+struct TemperatureTag {
+  static constexpr Dimension dimension = dimension::temperature;
+};
 using Length = Quantity<LengthTag>;
 using Angle = Quantity<AngleTag>;
 using Time = Quantity<TimeTag>;
@@ -63,6 +73,6 @@ struct Unit {
   double divide = 1;
 };
 [[nodiscard]] std::optional<Unit> find_unit(std::string_view suffix);
-[[nodiscard]] const std::array<Unit, 10>& all_units();  // in the order messages list them
+[[nodiscard]] const std::array<Unit, 11>& all_units();  // in the order messages list them
 
 }  // namespace scenec
