@@ -1,0 +1,115 @@
+// The world of placed shapes: closest and any hit over spheres, planes, triangles, quads, disks,
+// boxes, cylinders, meshes, revolves and instances of other worlds.
+//
+// Domain:     shapes valid in their kernel's sense; up to 2^32 - 1 items; instances nested at most
+//             Hit::max_instances deep.
+// Method:     a BVH over the items' world boxes with one array a kind and a switch at the leaf;
+//             meshes and instanced worlds bring their own tree; planes are a list beside it. Rays
+//             enter object space without renormalising, so every t compares with every other.
+// Error:      that of the kernels, plus the round trip through the item's transform, which
+//             Hit::error carries.
+// Degenerate: rays that are not traceable hit nothing; equal t goes to the smallest
+//             (instances outermost first, item, primitive).
+// Proof:      tests/unit/backend/accel/scene_accel_test.cpp.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "backend/accel/bvh.hpp"
+#include "backend/geometry/box.hpp"
+#include "backend/geometry/cylinder.hpp"
+#include "backend/geometry/disk.hpp"
+#include "backend/geometry/kernel.hpp"
+#include "backend/geometry/mesh.hpp"
+#include "backend/geometry/plane.hpp"
+#include "backend/geometry/quad.hpp"
+#include "backend/geometry/revolve.hpp"
+#include "backend/geometry/sphere.hpp"
+#include "backend/geometry/triangle.hpp"
+#include "backend/math/transform.hpp"
+
+namespace scenec::backend {
+
+// A mesh with its tree; immutable, shared by every item that places it.
+class MeshAccel {
+ public:
+  MeshAccel(TriangleMesh mesh, ThreadPool& pool);
+  [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const Bvh& bvh() const { return bvh_; }
+
+ private:
+  TriangleMesh mesh_;
+  Bvh bvh_;
+};
+
+// Decides whether a hit on an item added with ItemOption::filtered counts (alpha cut-outs); a
+// refused hit lets the ray go on, within the same shape too. A reference to any callable
+// `bool(const Hit&)`; must not outlive it. Empty: everything counts.
+class HitFilter {
+ public:
+  HitFilter() = default;
+  template <class F>
+    requires(!std::is_same_v<std::remove_cvref_t<F>, HitFilter> && std::is_invocable_r_v<bool, F&, const Hit&>)
+  HitFilter(F&& keep)  // NOLINT(google-explicit-constructor): a call site passes a lambda
+      : context_(const_cast<void*>(static_cast<const void*>(&keep))),
+        call_([](void* context, const Hit& hit) -> bool {
+          return (*static_cast<std::remove_reference_t<F>*>(context))(hit);
+        }) {}
+  [[nodiscard]] bool active() const { return call_ != nullptr; }
+  [[nodiscard]] bool keeps(const Hit& hit) const { return call_ == nullptr || call_(context_, hit); }
+
+ private:
+  void* context_ = nullptr;
+  bool (*call_)(void*, const Hit&) = nullptr;
+};
+
+enum class ItemOption : std::uint8_t { plain, filtered };
+
+class SceneAccel {
+ public:
+  using TransformIndex = std::uint32_t;
+  static constexpr TransformIndex identity = 0;
+
+  SceneAccel();
+  ~SceneAccel();
+  SceneAccel(SceneAccel&&) noexcept;
+  SceneAccel& operator=(SceneAccel&&) noexcept;
+
+  // Placements are shared: store one a group, not one an item. The identity gives `identity`.
+  TransformIndex add_transform(const Transform& world_from_object);
+
+  // `item` is the caller's number, returned in hits. Numbers need not be unique or ordered.
+  template <class Shape>
+  void add(std::uint32_t item, const Shape& shape, TransformIndex place = identity,
+           ItemOption option = ItemOption::plain);
+  void add_mesh(std::uint32_t item, std::shared_ptr<const MeshAccel> mesh, TransformIndex place = identity,
+                ItemOption option = ItemOption::plain);
+  void add_revolve(std::uint32_t item, std::shared_ptr<const Revolve> revolve, TransformIndex place = identity,
+                   ItemOption option = ItemOption::plain);
+  // `world` must be built. Its hits carry `item` in `Hit::instances`.
+  void add_instance(std::uint32_t item, std::shared_ptr<const SceneAccel> world, TransformIndex place = identity);
+
+  // Once, after all items.
+  void build(ThreadPool& pool);
+
+  // The closest hit in the ray's closed interval.
+  [[nodiscard]] bool intersect(const Ray& ray, Hit& hit, const HitFilter& filter = {}) const;
+  // Whether anything is hit in it.
+  [[nodiscard]] bool occluded(const Ray& ray, const HitFilter& filter = {}) const;
+
+  // Bounds of everything but planes.
+  [[nodiscard]] Bounds3 bounds() const;
+  [[nodiscard]] std::size_t item_count() const;
+  // The oracle of the tests: as `intersect`, without the tree over items.
+  [[nodiscard]] bool intersect_brute_force(const Ray& ray, Hit& hit, const HitFilter& filter = {}) const;
+
+  struct Data;
+
+ private:
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace scenec::backend

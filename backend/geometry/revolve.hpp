@@ -1,0 +1,88 @@
+// The surface swept by a profile curve (radius, height) turning about an axis.
+//
+// Domain:     finite control points, Bezier segments of degree 1..15; any finite ray.
+// Method:     on the surface r(s)^2 = |x(t)|^2 and h(s) = height(t), an equation in two unknowns
+//             (t along the ray, s along the curve): s is subdivided with Bernstein enclosures of r
+//             and h against the ray's reach in the shell between two cylinders and two planes; what
+//             is monotone is polished by Newton with bisection as safeguard. Nothing divides by the
+//             ray's slope along the axis, so level rays are like any other.
+// Error:      t within 1e-10 relative off tangency.
+// Degenerate: tangent rays: hit or miss by rounding; a ray lying in the surface for a whole interval
+//             reports the interval's nearest end it finds, after at most 4096 nodes; negative radii
+//             count as their absolute value; a pole's normal is that of its limit tangent.
+// Proof:      tests/unit/backend/geometry/revolve_test.cpp (R01-R06, R08, R09, R16, R17).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "backend/geometry/kernel.hpp"
+
+namespace scenec::backend {
+
+struct ProfilePoint {
+  double radius = 0;
+  double height = 0;
+};
+
+enum class Axis : std::uint8_t { x, y, z };
+
+inline constexpr int max_profile_degree = 15;
+
+// Curves as Bezier segments, all in one list of points; segment i takes degrees[i] + 1 points from
+// starts[i] on. Consecutive segments of one curve repeat the shared point.
+struct Profile {
+  std::vector<ProfilePoint> points;
+  std::vector<std::uint32_t> starts;
+  std::vector<std::uint8_t> degrees;
+
+  [[nodiscard]] std::size_t size() const { return starts.size(); }
+  [[nodiscard]] std::span<const ProfilePoint> segment(std::size_t i) const {
+    return std::span(points).subspan(starts[i], std::size_t{degrees[i]} + 1);
+  }
+  void add_segment(std::span<const ProfilePoint> control);
+};
+
+// At least 2 points: one line segment between each two.
+[[nodiscard]] Profile polyline_profile(std::span<const ProfilePoint> points);
+// 2 to 16 points: one segment.
+[[nodiscard]] Profile bezier_profile(std::span<const ProfilePoint> points);
+// 3k + 1 points: k cubics.
+[[nodiscard]] Profile beziers_profile(std::span<const ProfilePoint> points);
+enum class SplineEnds : std::uint8_t { clamped, uniform };
+// At least 4 points; cubic. Clamped: passes through the ends; uniform: knots of step 1 on [t3, tn].
+[[nodiscard]] Profile bspline_profile(std::span<const ProfilePoint> points, SplineEnds ends);
+
+class Revolve {
+ public:
+  Revolve() = default;
+  explicit Revolve(Profile profile, Axis axis = Axis::y);
+
+  [[nodiscard]] const Profile& profile() const { return profile_; }
+  [[nodiscard]] Axis axis() const { return axis_; }
+
+  // Bounds of one segment: |r| and h of its control points.
+  struct Piece {
+    double radius_min = 0;
+    double radius_max = 0;
+    double height_min = 0;
+    double height_max = 0;
+  };
+  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+
+ private:
+  Profile profile_;
+  std::vector<Piece> pieces_;
+  Axis axis_ = Axis::y;
+};
+
+// `part` is the segment, `a` the curve parameter in [0, 1] within it.
+[[nodiscard]] bool intersect(const Revolve& revolve, const Ray& ray, ShapeHit& out);
+// Every hit of the closed interval, sorted by t.
+void intersect_all(const Revolve& revolve, const Ray& ray, std::vector<ShapeHit>& out);
+[[nodiscard]] Bounds3 bounds(const Revolve& revolve);
+// u the angle about the axis / 2 pi (as on a sphere), v along the whole profile in [0, 1].
+[[nodiscard]] Surface surface(const Revolve& revolve, const Ray& ray, const ShapeHit& hit);
+
+}  // namespace scenec::backend
