@@ -16,7 +16,7 @@ class SceneBuilder {
   OriginId add_origin(Origin origin) { return scene_.origins.push(origin); }
   NameId add_name(std::string_view name);  // equal names share an id; "" gives the invalid id
   AssetId add_asset(Asset asset);          // a second asset of the same path gives the first id
-  TextureId add_texture(TextureKind texture);
+  TextureId add_texture(TextureNode texture);
   TransformId add_transform(const Transform& transform);  // equal transforms share an id
   MaterialId add_material(Material material, Declared declared);
   CameraId add_camera(Camera camera, Declared declared);

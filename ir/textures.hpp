@@ -80,10 +80,11 @@ struct ChannelTexture {
 
 using TextureKind = std::variant<ImageTexture, CheckerTexture, FractalTexture, RampTexture, GridTexture,
                                  ConstantTexture, ProductTexture, MixTexture, ChannelTexture>;
-// Every node gives a colour; where a number is wanted its mean is not taken: only ChannelTexture,
-// RampTexture of greys and products of such are accepted by the frontend.
+// Every node gives a colour. A scalar node was written with numbers (or picks a channel): all its
+// colours are greys, it may stand where a number is wanted, and its constants print as numbers.
 struct TextureNode {
   TextureKind kind;
+  bool scalar = false;
 };
 
 }  // namespace scenec::ir
