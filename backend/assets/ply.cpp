@@ -1,0 +1,390 @@
+#include "backend/assets/ply.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "backend/assets/ply_header.hpp"
+#include "backend/assets/text_scan.hpp"
+#include "backend/assets/triangulate.hpp"
+#include "base/text.hpp"
+
+namespace scenec::backend {
+namespace {
+
+constexpr std::size_t shown_text = 40;
+constexpr std::uint64_t most_vertices = 0xFFFF'FFFE;
+
+enum class RowProblem : std::uint8_t { none, truncated, unparsable, not_whole, list_too_long, extra };
+
+// Values of an ascii body: one row a line, blank lines between rows allowed.
+class AsciiBody {
+ public:
+  AsciiBody(std::string_view bytes, std::uint64_t first_line, const MeshLimits& limits)
+      : scanner_(bytes, limits.line_bytes, LineScanner::Continuation::none),
+        first_line_(first_line) {}
+
+  RowProblem begin_row() {
+    std::string_view line;
+    do {
+      if (!scanner_.next(line)) return RowProblem::truncated;
+      cursor_ = WordCursor(line);
+      cursor_.skip_blanks();
+    } while (cursor_.position() == cursor_.end());
+    return RowProblem::none;
+  }
+  RowProblem end_row() {
+    cursor_.skip_blanks();
+    return cursor_.position() == cursor_.end() ? RowProblem::none : RowProblem::extra;
+  }
+  RowProblem value(PlyType type, double& value) {
+    switch (cursor_.number(value)) {
+      case NumberProblem::none:
+        break;
+      case NumberProblem::missing:
+        return RowProblem::truncated;
+      case NumberProblem::not_finite:
+        value = std::numeric_limits<double>::infinity();
+        static_cast<void>(cursor_.word());
+        break;
+      case NumberProblem::unparsable:
+        return RowProblem::unparsable;
+    }
+    return is_real(type) || std::trunc(value) == value ? RowProblem::none : RowProblem::not_whole;
+  }
+  // Every item takes at least two bytes of the line (the last one a byte).
+  [[nodiscard]] bool can_hold(double count, PlyType) const {
+    return count * 2 <= static_cast<double>(cursor_.end() - cursor_.position()) + 1;
+  }
+  RowProblem skip(double count, PlyType type) {
+    double ignored = 0;
+    for (double i = 0; i < count; ++i) {
+      if (const RowProblem problem = value(type, ignored); problem != RowProblem::none) {
+        return problem;
+      }
+    }
+    return RowProblem::none;
+  }
+  [[nodiscard]] std::uint64_t line() const { return first_line_ + scanner_.line() - 1; }
+  [[nodiscard]] std::size_t rest() const {
+    const bool blank = std::ranges::all_of(scanner_.rest(),
+                                           [](char c) { return is_blank(c) || c == '\n'; });
+    return blank ? 0 : scanner_.rest().size();
+  }
+
+ private:
+  LineScanner scanner_;
+  std::uint64_t first_line_;
+  WordCursor cursor_{std::string_view{}};
+};
+
+// Values of a binary body. `swapped`: its byte order is not the machine's.
+class BinaryBody {
+ public:
+  BinaryBody(std::string_view bytes, bool swapped) : rest_(bytes), swapped_(swapped) {}
+
+  RowProblem begin_row() { return RowProblem::none; }
+  RowProblem end_row() { return RowProblem::none; }
+  RowProblem value(PlyType type, double& value) {
+    if (rest_.size() < size_of(type)) return RowProblem::truncated;
+    switch (type) {
+      case PlyType::int8: value = take<std::int8_t, std::uint8_t>(); break;
+      case PlyType::uint8: value = take<std::uint8_t, std::uint8_t>(); break;
+      case PlyType::int16: value = take<std::int16_t, std::uint16_t>(); break;
+      case PlyType::uint16: value = take<std::uint16_t, std::uint16_t>(); break;
+      case PlyType::int32: value = take<std::int32_t, std::uint32_t>(); break;
+      case PlyType::uint32: value = take<std::uint32_t, std::uint32_t>(); break;
+      case PlyType::float32: value = static_cast<double>(take<float, std::uint32_t>()); break;
+      case PlyType::float64: value = take<double, std::uint64_t>(); break;
+    }
+    return RowProblem::none;
+  }
+  [[nodiscard]] bool can_hold(double count, PlyType type) const {
+    return count * static_cast<double>(size_of(type)) <= static_cast<double>(rest_.size());
+  }
+  RowProblem skip(double count, PlyType type) {
+    rest_.remove_prefix(static_cast<std::size_t>(count) * size_of(type));
+    return RowProblem::none;
+  }
+  [[nodiscard]] std::uint64_t line() const { return 0; }
+  [[nodiscard]] std::size_t rest() const { return rest_.size(); }
+
+ private:
+  template <class T, class Bits>
+  T take() {
+    Bits bits;
+    std::memcpy(&bits, rest_.data(), sizeof bits);
+    rest_.remove_prefix(sizeof bits);
+    if (swapped_) {
+      if constexpr (sizeof bits == 2) bits = __builtin_bswap16(bits);
+      if constexpr (sizeof bits == 4) bits = __builtin_bswap32(bits);
+      if constexpr (sizeof bits == 8) bits = __builtin_bswap64(bits);
+    }
+    return std::bit_cast<T>(bits);
+  }
+
+  std::string_view rest_;
+  bool swapped_;
+};
+
+// What a vertex property is for; texture coordinates go by several names.
+enum class Role : std::uint8_t { none, x, y, z, nx, ny, nz, u, v };
+constexpr std::size_t role_count = 9;
+
+Role role_of(std::string_view name) {
+  struct Row {
+    std::string_view name;
+    Role role;
+  };
+  constexpr Row rows[] = {{"x", Role::x},         {"y", Role::y},         {"z", Role::z},
+                          {"nx", Role::nx},       {"ny", Role::ny},       {"nz", Role::nz},
+                          {"u", Role::u},         {"v", Role::v},         {"s", Role::u},
+                          {"t", Role::v},         {"texture_u", Role::u}, {"texture_v", Role::v},
+                          {"texture_s", Role::u}, {"texture_t", Role::v}};
+  for (const Row& row : rows) {
+    if (row.name == name) return row.role;
+  }
+  return Role::none;
+}
+
+template <class Body>
+class PlyReader {
+ public:
+  PlyReader(const PlyHeader& header, Body body, const MeshLimits& limits)
+      : header_(header), body_(std::move(body)), limits_(limits) {}
+
+  Result<MeshData, AssetProblem> run() {
+    for (const PlyElement& element : header_.elements) {
+      if (!read(element)) return Failure{std::move(problem_)};
+    }
+    if (body_.rest() != 0) {
+      return Failure{AssetProblem{
+          0, fmt::format("{} bytes follow the last element; counts and body disagree",
+                         body_.rest())}};
+    }
+    if (farthest_ >= mesh_.positions.size()) {
+      return Failure{AssetProblem{farthest_line_,
+                                  fmt::format("face index {} is beyond the {} vertices", farthest_,
+                                              mesh_.positions.size())}};
+    }
+    if (auto problem = triangulate(faces_, limits_, mesh_)) return Failure{std::move(*problem)};
+    return std::move(mesh_);
+  }
+
+ private:
+  bool fail(const PlyElement& element, std::uint64_t row, std::string_view what) {
+    problem_ = {body_.line(), fmt::format("{} {}: {}", printable(element.name, shown_text), row, what)};
+    return false;
+  }
+
+  bool fail(const PlyElement& element, std::uint64_t row, RowProblem problem) {
+    switch (problem) {
+      case RowProblem::truncated:
+        return fail(element, row, "values are missing; the file or the row ends too early");
+      case RowProblem::unparsable: return fail(element, row, "value is not a number");
+      case RowProblem::not_whole: return fail(element, row, "value is not a whole number");
+      case RowProblem::list_too_long: return fail(element, row, "list is longer than what follows");
+      case RowProblem::extra: return fail(element, row, "more values than properties");
+      case RowProblem::none: break;
+    }
+    return true;
+  }
+
+  bool read(const PlyElement& element) {
+    if (element.name == "vertex") return read_vertices(element);
+    if (element.name == "face") return read_faces(element);
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      RowProblem problem = body_.begin_row();
+      for (const PlyProperty& property : element.properties) {
+        if (problem == RowProblem::none) problem = skip(property);
+      }
+      if (problem == RowProblem::none) problem = body_.end_row();
+      if (problem != RowProblem::none) return fail(element, row, problem);
+    }
+    return true;
+  }
+
+  RowProblem list_count(const PlyProperty& property, double& count) {
+    const RowProblem problem = body_.value(property.count_type, count);
+    if (problem != RowProblem::none) return problem;
+    return count >= 0 && body_.can_hold(count, property.type) ? RowProblem::none
+                                                              : RowProblem::list_too_long;
+  }
+
+  RowProblem skip(const PlyProperty& property) {
+    double value = 0;
+    if (!property.is_list) return body_.value(property.type, value);
+    const RowProblem problem = list_count(property, value);
+    return problem == RowProblem::none ? body_.skip(value, property.type) : problem;
+  }
+
+  bool read_vertices(const PlyElement& element) {
+    if (element.count > most_vertices) return fail(element, 0, "too many vertices");
+    std::vector<Role> roles;
+    std::array<bool, role_count> seen{};
+    for (const PlyProperty& property : element.properties) {
+      Role role = property.is_list ? Role::none : role_of(property.name);
+      if (seen[static_cast<std::size_t>(role)]) role = Role::none;
+      seen[static_cast<std::size_t>(role)] = true;
+      roles.push_back(role);
+    }
+    const auto has = [&](Role role) { return seen[static_cast<std::size_t>(role)]; };
+    if (!has(Role::x) || !has(Role::y) || !has(Role::z)) {
+      problem_ = {element.line, "element `vertex` needs the properties `x`, `y` and `z`"};
+      return false;
+    }
+    const bool has_normals = has(Role::nx) && has(Role::ny) && has(Role::nz);
+    const bool has_uvs = has(Role::u) && has(Role::v);
+    mesh_.positions.reserve(element.count);
+    if (has_normals) mesh_.normals.reserve(element.count);
+    if (has_uvs) mesh_.uvs.reserve(element.count);
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      if (!read_vertex(element, roles, row)) return false;
+      if (!keep_vertex(element, row, has_normals, has_uvs)) return false;
+    }
+    return true;
+  }
+
+  bool read_vertex(const PlyElement& element, const std::vector<Role>& roles, std::uint64_t row) {
+    RowProblem problem = body_.begin_row();
+    for (std::size_t i = 0; i < roles.size() && problem == RowProblem::none; ++i) {
+      const PlyProperty& property = element.properties[i];
+      problem = property.is_list
+                    ? skip(property)
+                    : body_.value(property.type, values_[static_cast<std::size_t>(roles[i])]);
+    }
+    if (problem == RowProblem::none) problem = body_.end_row();
+    return problem == RowProblem::none || fail(element, row, problem);
+  }
+
+  bool keep_vertex(const PlyElement& element, std::uint64_t row, bool has_normals, bool has_uvs) {
+    const auto value = [&](Role role) { return values_[static_cast<std::size_t>(role)]; };
+    const auto narrow = [&](Role role) { return static_cast<float>(value(role)); };
+    const std::array<double, 3> p{value(Role::x), value(Role::y), value(Role::z)};
+    bool finite = std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+    mesh_.positions.push_back(p);
+    if (has_normals) {
+      const std::array<float, 3> n{narrow(Role::nx), narrow(Role::ny), narrow(Role::nz)};
+      finite = finite && std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2]);
+      mesh_.normals.push_back(n);
+    }
+    if (has_uvs) {
+      const std::array<float, 2> t{narrow(Role::u), narrow(Role::v)};
+      finite = finite && std::isfinite(t[0]) && std::isfinite(t[1]);
+      mesh_.uvs.push_back(t);
+    }
+    return finite || fail(element, row, "coordinate is not finite");
+  }
+
+  bool read_faces(const PlyElement& element) {
+    std::size_t indices = element.properties.size();
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      const bool named = property.name == "vertex_indices" || property.name == "vertex_index";
+      if (named && property.is_list && !is_real(property.type)) indices = i;
+    }
+    if (indices == element.properties.size()) {
+      problem_ = {element.line, "element `face` needs a list of whole numbers `vertex_indices`"};
+      return false;
+    }
+    if (element.count >= no_index) return fail(element, 0, "too many faces");
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      RowProblem problem = body_.begin_row();
+      for (std::size_t i = 0; i < element.properties.size() && problem == RowProblem::none; ++i) {
+        if (i != indices) {
+          problem = skip(element.properties[i]);
+        } else if (!read_face(element, element.properties[i], row)) {
+          return false;
+        }
+      }
+      if (problem == RowProblem::none) problem = body_.end_row();
+      if (problem != RowProblem::none) return fail(element, row, problem);
+    }
+    return true;
+  }
+
+  bool read_face(const PlyElement& element, const PlyProperty& property, std::uint64_t row) {
+    double count = 0;
+    RowProblem problem = list_count(property, count);
+    if (problem != RowProblem::none) return fail(element, row, problem);
+    if (count < 3) return fail(element, row, fmt::format("{} corners; needs at least 3", count));
+    if (count > limits_.polygon_vertices) {
+      return fail(element, row,
+                  fmt::format("{} corners; at most {} are allowed", count, limits_.polygon_vertices));
+    }
+    const auto size = static_cast<std::uint32_t>(count);
+    for (std::uint32_t i = 0; i < size; ++i) {
+      double index = 0;
+      problem = body_.value(property.type, index);
+      if (problem != RowProblem::none) return fail(element, row, problem);
+      if (!(index >= 0 && index <= static_cast<double>(most_vertices))) {
+        return fail(element, row, fmt::format("corner {} has the index {}", i + 1, index));
+      }
+      const auto whole = static_cast<std::uint32_t>(index);
+      if (whole > farthest_ || faces_.corner_positions.empty()) {
+        farthest_ = whole;
+        farthest_line_ = body_.line();
+      }
+      faces_.corner_positions.push_back(whole);
+    }
+    faces_.sizes.push_back(size);
+    if (header_.format == PlyFormat::ascii) {
+      faces_.lines.push_back(
+          static_cast<std::uint32_t>(std::min<std::uint64_t>(body_.line(), no_index)));
+    }
+    return true;
+  }
+
+  const PlyHeader& header_;
+  Body body_;
+  const MeshLimits& limits_;
+  MeshData mesh_;
+  FaceList faces_;
+  std::array<double, role_count> values_{};
+  std::uint64_t farthest_ = 0;
+  std::uint64_t farthest_line_ = 0;
+  AssetProblem problem_;
+};
+
+std::optional<AssetProblem> find_missing_element(const PlyHeader& header) {
+  for (const std::string_view name : {"vertex", "face"}) {
+    const auto found = std::ranges::find(header.elements, name, &PlyElement::name);
+    if (found == header.elements.end()) {
+      return AssetProblem{0, fmt::format("no element `{}`", name)};
+    }
+    if (found->count == 0) {
+      return AssetProblem{found->line, fmt::format("element `{}` has no rows", name)};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<MeshData, AssetProblem> read_ply(std::string_view bytes, const MeshLimits& limits) {
+  if (bytes.empty()) return Failure{AssetProblem{0, "file is empty"}};
+  if (bytes.size() > limits.file_bytes) {
+    return Failure{AssetProblem{0, fmt::format("file has {} bytes; at most {} are allowed",
+                                               bytes.size(), limits.file_bytes)}};
+  }
+  const Result<PlyHeader, AssetProblem> header = read_ply_header(bytes, limits);
+  if (!header) return Failure{header.error()};
+  if (auto problem = find_missing_element(header.value())) return Failure{std::move(*problem)};
+  const std::string_view body = bytes.substr(header.value().body_offset);
+  if (header.value().format == PlyFormat::ascii) {
+    return PlyReader(header.value(), AsciiBody(body, header.value().body_line, limits), limits).run();
+  }
+  const bool little = header.value().format == PlyFormat::binary_little_endian;
+  const bool swapped = little != (std::endian::native == std::endian::little);
+  return PlyReader(header.value(), BinaryBody(body, swapped), limits).run();
+}
+
+}  // namespace scenec::backend
