@@ -15,7 +15,9 @@ std::size_t SceneBuilder::TransformHash::operator()(const Transform& transform) 
   return static_cast<std::size_t>(hasher.result().low);
 }
 
-SceneBuilder::SceneBuilder() { static_cast<void>(add_transform(Transform{})); }
+SceneBuilder::SceneBuilder() {
+  static_cast<void>(add_transform(Transform{}));
+}
 
 NameId SceneBuilder::add_name(std::string_view name) {
   if (name.empty()) return {};
@@ -30,7 +32,9 @@ AssetId SceneBuilder::add_asset(Asset asset) {
   return place->second;
 }
 
-TextureId SceneBuilder::add_texture(TextureNode texture) { return scene_.textures.push(std::move(texture)); }
+TextureId SceneBuilder::add_texture(TextureNode texture) {
+  return scene_.textures.push(std::move(texture));
+}
 
 TransformId SceneBuilder::add_transform(const Transform& transform) {
   // The identity is the first row and by far the most frequent question.

@@ -34,10 +34,12 @@ template <>
 struct Schema<Pinhole> {
   static constexpr std::string_view name = "pinhole";
   static constexpr std::string_view doc = "A pinhole camera: everything is sharp.";
-  static constexpr auto keys = std::tuple_cat(camera_frame_keys, std::tuple{
-      key(&Pinhole::fov, "fov", range::half_turn, "full vertical angle of view"),
-      key(&Pinhole::focal, "focal", range::positive, "focal length for a sensor 24 mm high"),
-  });
+  static constexpr auto keys = std::tuple_cat(
+      camera_frame_keys,
+      std::tuple{
+          key(&Pinhole::fov, "fov", range::half_turn, "full vertical angle of view"),
+          key(&Pinhole::focal, "focal", range::positive, "focal length for a sensor 24 mm high"),
+      });
   static constexpr std::array rules{aim_or_direction, fov_or_focal};
 };
 
@@ -60,14 +62,19 @@ template <>
 struct Schema<ThinLens> {
   static constexpr std::string_view name = "thin_lens";
   static constexpr std::string_view doc = "A camera with a lens: sharp at one distance.";
-  static constexpr auto keys = std::tuple_cat(camera_frame_keys, std::tuple{
-      key(&ThinLens::fov, "fov", range::half_turn, "full vertical angle of view"),
-      key(&ThinLens::focal, "focal", range::positive, "focal length for a sensor 24 mm high"),
-      key(&ThinLens::aperture, "aperture", range::non_negative, "radius of the lens"),
-      key(&ThinLens::f_stop, "f_stop", range::positive, "focal length over diameter of the lens"),
-      required(&ThinLens::focus, "focus", range::positive, "sharp distance along the axis, or .aim"),
-      key(&ThinLens::blades, "blades", range::between(0, 64), "corners of the aperture; 0 is round"),
-  });
+  static constexpr auto keys = std::tuple_cat(
+      camera_frame_keys,
+      std::tuple{
+          key(&ThinLens::fov, "fov", range::half_turn, "full vertical angle of view"),
+          key(&ThinLens::focal, "focal", range::positive, "focal length for a sensor 24 mm high"),
+          key(&ThinLens::aperture, "aperture", range::non_negative, "radius of the lens"),
+          key(&ThinLens::f_stop, "f_stop", range::positive,
+              "focal length over diameter of the lens"),
+          required(&ThinLens::focus, "focus", range::positive,
+                   "sharp distance along the axis, or .aim"),
+          key(&ThinLens::blades, "blades", range::between(0, 64),
+              "corners of the aperture; 0 is round"),
+      });
   static constexpr std::array rules{aim_or_direction, fov_or_focal,
                                     KeyRule{KeyRule::Kind::exactly_one, {"aperture", "f_stop"}}};
 };
@@ -79,9 +86,11 @@ template <>
 struct Schema<Orthographic> {
   static constexpr std::string_view name = "orthographic";
   static constexpr std::string_view doc = "Parallel projection.";
-  static constexpr auto keys = std::tuple_cat(camera_frame_keys, std::tuple{
-      required(&Orthographic::height, "height", range::positive, "height of the picture in the scene"),
-  });
+  static constexpr auto keys = std::tuple_cat(
+      camera_frame_keys, std::tuple{
+                             required(&Orthographic::height, "height", range::positive,
+                                      "height of the picture in the scene"),
+                         });
   static constexpr std::array rules{aim_or_direction};
 };
 

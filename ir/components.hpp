@@ -16,19 +16,30 @@
 namespace scenec::ir {
 
 template <class F>
-void for_each_number(double value, F&& f) { f(value); }
+void for_each_number(double value, F&& f) {
+  f(value);
+}
 template <class T, class F>
-  requires(std::integral<T> && !std::same_as<T, bool>)
-void for_each_number(T value, F&& f) { f(static_cast<double>(value)); }
+requires(std::integral<T> && !std::same_as<T, bool>) void for_each_number(T value, F&& f) {
+  f(static_cast<double>(value));
+}
 template <class Tag, class F>
-void for_each_number(const Quantity<Tag>& value, F&& f) { f(value.value); }
+void for_each_number(const Quantity<Tag>& value, F&& f) {
+  f(value.value);
+}
 template <class F>
-void for_each_number(const Vec2& v, F&& f) { f(v.x), f(v.y); }
+void for_each_number(const Vec2& v, F&& f) {
+  f(v.x), f(v.y);
+}
 template <class T, class F>
-  requires(std::same_as<T, Vec3> || std::same_as<T, Direction> || std::same_as<T, Point3>)
-void for_each_number(const T& v, F&& f) { f(v.x), f(v.y), f(v.z); }
+requires(std::same_as<T, Vec3> || std::same_as<T, Direction> ||
+         std::same_as<T, Point3>) void for_each_number(const T& v, F&& f) {
+  f(v.x), f(v.y), f(v.z);
+}
 template <class F>
-void for_each_number(const Color& c, F&& f) { f(c.r), f(c.g), f(c.b); }
+void for_each_number(const Color& c, F&& f) {
+  f(c.r), f(c.g), f(c.b);
+}
 template <class F>
 void for_each_number(const Transform& t, F&& f) {
   for (double entry : t.m) f(entry);
@@ -38,7 +49,9 @@ void for_each_number(const FocusDistance& focus, F&& f) {
   if (!focus.at_aim) f(focus.distance.value);
 }
 template <class F>
-void for_each_number(const PixelFilter& filter, F&& f) { f(filter.radius); }
+void for_each_number(const PixelFilter& filter, F&& f) {
+  f(filter.radius);
+}
 template <class F>
 void for_each_number(const ImageSize& size, F&& f) {
   f(static_cast<double>(size.width)), f(static_cast<double>(size.height));
@@ -49,8 +62,7 @@ void for_each_number(const Region& r, F&& f) {
 }
 // Values without numbers of their own.
 template <class T, class F>
-  requires(std::same_as<T, bool> || std::is_enum_v<T>)
-void for_each_number(T, F&&) {}
+requires(std::same_as<T, bool> || std::is_enum_v<T>) void for_each_number(T, F&&) {}
 template <class Tag, class F>
 void for_each_number(Id<Tag>, F&&) {}
 
@@ -64,9 +76,13 @@ template <class T, class F>
 void for_each_number(const std::vector<T>& values, F&& f);
 
 template <class F>
-void for_each_number(const MeshNormals& normals, F&& f) { for_each_number(normals.list, f); }
+void for_each_number(const MeshNormals& normals, F&& f) {
+  for_each_number(normals.list, f);
+}
 template <class F>
-void for_each_number(const Curve& curve, F&& f) { for_each_number(curve.points, f); }
+void for_each_number(const Curve& curve, F&& f) {
+  for_each_number(curve.points, f);
+}
 
 template <class T, class F>
 void for_each_number(const Input<T>& input, F&& f) {

@@ -12,7 +12,15 @@ namespace {
 class ContentHasher {
  public:
   explicit ContentHasher(const Scene& scene)
-      : scene_(scene), textures_(scene.textures.size()), materials_(scene.materials.size()), protos_(scene.protos.size()) {}
+      : scene_(scene),
+        textures_(scene.textures.size()),
+        materials_(scene.materials.size()),
+        protos_(scene.protos.size()) {
+    // A row refers to earlier rows only (verify), so going through in order keeps recursion flat.
+    for (std::uint32_t i = 0; i < textures_.size(); ++i) static_cast<void>(of(TextureId(i)));
+    for (std::uint32_t i = 0; i < materials_.size(); ++i) static_cast<void>(of(MaterialId(i)));
+    for (std::uint32_t i = 0; i < protos_.size(); ++i) static_cast<void>(of(ProtoId(i)));
+  }
 
   Hash128 whole() {
     Hasher hasher;
@@ -45,7 +53,8 @@ class ContentHasher {
     });
   }
   Hash128 of(ProtoId id) {
-    return memo(protos_[id.value()], [&](Hasher& hasher) { feed_items(hasher, scene_.protos[id].items); });
+    return memo(protos_[id.value()],
+                [&](Hasher& hasher) { feed_items(hasher, scene_.protos[id].items); });
   }
   Hash128 of(const ShapeRef& shape) {
     Hasher hasher;
@@ -98,13 +107,19 @@ class ContentHasher {
   void feed(Hasher& hasher, std::int64_t value) { hasher.add(value); }
   void feed(Hasher& hasher, std::uint32_t value) { hasher.add(value); }
   template <NamedEnum E>
-  void feed(Hasher& hasher, E value) { hasher.add(value); }
+  void feed(Hasher& hasher, E value) {
+    hasher.add(value);
+  }
   template <class Tag>
-  void feed(Hasher& hasher, const Quantity<Tag>& value) { hasher.add(value.value); }
+  void feed(Hasher& hasher, const Quantity<Tag>& value) {
+    hasher.add(value.value);
+  }
   void feed(Hasher& hasher, const Vec2& v) { hasher.add(v.x), hasher.add(v.y); }
   template <class T>
-    requires(std::same_as<T, Vec3> || std::same_as<T, Direction> || std::same_as<T, Point3>)
-  void feed(Hasher& hasher, const T& v) { hasher.add(v.x), hasher.add(v.y), hasher.add(v.z); }
+  requires(std::same_as<T, Vec3> || std::same_as<T, Direction> ||
+           std::same_as<T, Point3>) void feed(Hasher& hasher, const T& v) {
+    hasher.add(v.x), hasher.add(v.y), hasher.add(v.z);
+  }
   void feed(Hasher& hasher, const Color& c) { hasher.add(c.r), hasher.add(c.g), hasher.add(c.b); }
   void feed(Hasher& hasher, const Transform& t) { feed(hasher, t.m); }
   void feed(Hasher& hasher, const Curve& curve) {
@@ -119,15 +134,31 @@ class ContentHasher {
     hasher.add(focus.at_aim);
     if (!focus.at_aim) hasher.add(focus.distance.value);
   }
-  void feed(Hasher& hasher, const PixelFilter& filter) { hasher.add(filter.kind), hasher.add(filter.radius); }
-  void feed(Hasher& hasher, const ImageSize& size) { hasher.add(size.width), hasher.add(size.height); }
-  void feed(Hasher& hasher, const Region& r) { hasher.add(r.x0), hasher.add(r.y0), hasher.add(r.x1), hasher.add(r.y1); }
+  void feed(Hasher& hasher, const PixelFilter& filter) {
+    hasher.add(filter.kind), hasher.add(filter.radius);
+  }
+  void feed(Hasher& hasher, const ImageSize& size) {
+    hasher.add(size.width), hasher.add(size.height);
+  }
+  void feed(Hasher& hasher, const Region& r) {
+    hasher.add(r.x0), hasher.add(r.y0), hasher.add(r.x1), hasher.add(r.y1);
+  }
 
-  void feed(Hasher& hasher, AssetId id) { feed_optional(hasher, id, [&] { hasher.add(scene_.assets[id].hash); }); }
-  void feed(Hasher& hasher, TextureId id) { feed_optional(hasher, id, [&] { hasher.add(of(id)); }); }
-  void feed(Hasher& hasher, MaterialId id) { feed_optional(hasher, id, [&] { hasher.add(of(id)); }); }
-  void feed(Hasher& hasher, ProtoId id) { feed_optional(hasher, id, [&] { hasher.add(of(id)); }); }
-  void feed(Hasher& hasher, CameraId id) { feed_optional(hasher, id, [&] { hasher.add(hash_of(scene_.cameras[id])); }); }
+  void feed(Hasher& hasher, AssetId id) {
+    feed_optional(hasher, id, [&] { hasher.add(scene_.assets[id].hash); });
+  }
+  void feed(Hasher& hasher, TextureId id) {
+    feed_optional(hasher, id, [&] { hasher.add(of(id)); });
+  }
+  void feed(Hasher& hasher, MaterialId id) {
+    feed_optional(hasher, id, [&] { hasher.add(of(id)); });
+  }
+  void feed(Hasher& hasher, ProtoId id) {
+    feed_optional(hasher, id, [&] { hasher.add(of(id)); });
+  }
+  void feed(Hasher& hasher, CameraId id) {
+    feed_optional(hasher, id, [&] { hasher.add(hash_of(scene_.cameras[id])); });
+  }
   template <class Tag, class F>
   static void feed_optional(Hasher& hasher, Id<Tag> id, F&& feed_target) {
     hasher.add(id.valid());
@@ -154,14 +185,18 @@ class ContentHasher {
     for (const T& value : values) feed(hasher, value);
   }
   template <HasSchema T>
-  void feed(Hasher& hasher, const T& block) { feed_fields(hasher, block); }
+  void feed(Hasher& hasher, const T& block) {
+    feed_fields(hasher, block);
+  }
 
   void feed_texture(Hasher& hasher, const ImageTexture& t) {
     feed(hasher, t.file);
     hasher.add(t.wrap), hasher.add(t.filter), hasher.add(t.encoding);
     feed(hasher, t.scale);
   }
-  void feed_texture(Hasher& hasher, const CheckerTexture& t) { feed(hasher, t.a), feed(hasher, t.b), hasher.add(t.scale); }
+  void feed_texture(Hasher& hasher, const CheckerTexture& t) {
+    feed(hasher, t.a), feed(hasher, t.b), hasher.add(t.scale);
+  }
   void feed_texture(Hasher& hasher, const FractalTexture& t) {
     hasher.add(t.scale), hasher.add(t.octaves);
     feed(hasher, t.a), feed(hasher, t.b);
@@ -176,9 +211,15 @@ class ContentHasher {
     hasher.add(t.scale), hasher.add(t.width);
   }
   void feed_texture(Hasher& hasher, const ConstantTexture& t) { feed(hasher, t.color); }
-  void feed_texture(Hasher& hasher, const ProductTexture& t) { feed(hasher, t.a), feed(hasher, t.b); }
-  void feed_texture(Hasher& hasher, const MixTexture& t) { feed(hasher, t.a), feed(hasher, t.b), feed(hasher, t.t); }
-  void feed_texture(Hasher& hasher, const ChannelTexture& t) { feed(hasher, t.source), hasher.add(t.channel); }
+  void feed_texture(Hasher& hasher, const ProductTexture& t) {
+    feed(hasher, t.a), feed(hasher, t.b);
+  }
+  void feed_texture(Hasher& hasher, const MixTexture& t) {
+    feed(hasher, t.a), feed(hasher, t.b), feed(hasher, t.t);
+  }
+  void feed_texture(Hasher& hasher, const ChannelTexture& t) {
+    feed(hasher, t.source), hasher.add(t.channel);
+  }
 
   const Scene& scene_;
   std::vector<std::optional<Hash128>> textures_;
@@ -188,10 +229,20 @@ class ContentHasher {
 
 }  // namespace
 
-Hash128 content_hash(const Scene& scene) { return ContentHasher(scene).whole(); }
-Hash128 content_hash(const Scene& scene, MaterialId material) { return ContentHasher(scene).of(material); }
-Hash128 content_hash(const Scene& scene, TextureId texture) { return ContentHasher(scene).of(texture); }
-Hash128 content_hash(const Scene& scene, ProtoId proto) { return ContentHasher(scene).of(proto); }
-Hash128 content_hash(const Scene& scene, const ShapeRef& shape) { return ContentHasher(scene).of(shape); }
+Hash128 content_hash(const Scene& scene) {
+  return ContentHasher(scene).whole();
+}
+Hash128 content_hash(const Scene& scene, MaterialId material) {
+  return ContentHasher(scene).of(material);
+}
+Hash128 content_hash(const Scene& scene, TextureId texture) {
+  return ContentHasher(scene).of(texture);
+}
+Hash128 content_hash(const Scene& scene, ProtoId proto) {
+  return ContentHasher(scene).of(proto);
+}
+Hash128 content_hash(const Scene& scene, const ShapeRef& shape) {
+  return ContentHasher(scene).of(shape);
+}
 
 }  // namespace scenec::ir

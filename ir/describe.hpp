@@ -14,7 +14,7 @@ namespace scenec::ir {
 
 struct KeyDescription {
   std::string_view name;
-  std::string type;                      // "length", "color or texture", "one of .auto .file", ...
+  std::string type;  // "length", "color or texture", "one of .auto .file", ...
   std::optional<std::string> default_text;  // as source text; none for required keys and optionals
   bool required = false;
   Range range;

@@ -54,11 +54,17 @@ struct Schema<SpotLight> {
   static constexpr std::string_view doc = "Light from a point into a cone.";
   static constexpr auto keys = std::tuple{
       required(&SpotLight::position, "position", range::any, "where it is"),
-      required(&SpotLight::direction, "direction", range::any, "axis of the cone, away from the light"),
-      required(&SpotLight::angle, "angle", Range{.low = 0, .high = 6.283185307179586, .low_open = true}, "full angle of the cone"),
-      key(&SpotLight::falloff, "falloff", range::non_negative, "width of the soft edge inside the cone"),
-      key(&SpotLight::intensity, "intensity", range::non_negative, "radiant intensity on the axis [W/sr]"),
-      key(&SpotLight::power, "power", range::non_negative, "total power if it shone in all directions"),
+      required(&SpotLight::direction, "direction", range::any,
+               "axis of the cone, away from the light"),
+      required(&SpotLight::angle, "angle",
+               Range{.low = 0, .high = 6.283185307179586, .low_open = true},
+               "full angle of the cone"),
+      key(&SpotLight::falloff, "falloff", range::non_negative,
+          "width of the soft edge inside the cone"),
+      key(&SpotLight::intensity, "intensity", range::non_negative,
+          "radiant intensity on the axis [W/sr]"),
+      key(&SpotLight::power, "power", range::non_negative,
+          "total power if it shone in all directions"),
       key(&SpotLight::decay, "decay", range::any, "how it weakens with distance"),
       key(&SpotLight::color, "color", range::non_negative, "factor a channel"),
   };
@@ -76,7 +82,8 @@ struct Schema<DirectionalLight> {
   static constexpr std::string_view doc = "Parallel light, as from the sun.";
   static constexpr auto keys = std::tuple{
       required(&DirectionalLight::direction, "direction", range::any, "direction of travel"),
-      required(&DirectionalLight::irradiance, "irradiance", range::non_negative, "on a surface facing it [W/m^2]"),
+      required(&DirectionalLight::irradiance, "irradiance", range::non_negative,
+               "on a surface facing it [W/m^2]"),
       key(&DirectionalLight::color, "color", range::non_negative, "factor a channel"),
   };
   static constexpr auto rules = no_rules;
@@ -117,7 +124,8 @@ struct QuadLight {
 template <>
 struct Schema<QuadLight> {
   static constexpr std::string_view name = "quad";
-  static constexpr std::string_view doc = "A glowing parallelogram; it emits along edge_u x edge_v.";
+  static constexpr std::string_view doc =
+      "A glowing parallelogram; it emits along edge_u x edge_v.";
   static constexpr auto keys = std::tuple{
       required(&QuadLight::corner, "corner", range::any, "one corner"),
       required(&QuadLight::edge_u, "edge_u", range::any, "first edge from the corner"),
@@ -168,7 +176,8 @@ struct Schema<EnvironmentLight> {
   static constexpr std::string_view doc = "Light from infinitely far away, all round.";
   static constexpr auto keys = std::tuple{
       key(&EnvironmentLight::image, "image", range::any, "latitude-longitude image"),
-      key(&EnvironmentLight::constant, "constant", range::non_negative, "the same radiance from everywhere"),
+      key(&EnvironmentLight::constant, "constant", range::non_negative,
+          "the same radiance from everywhere"),
       key(&EnvironmentLight::gain, "gain", range::non_negative, "factor on the radiance"),
       key(&EnvironmentLight::rotation, "rotation", range::any, "turn about +y"),
       key(&EnvironmentLight::color, "color", range::non_negative, "factor a channel"),
@@ -176,7 +185,8 @@ struct Schema<EnvironmentLight> {
   static constexpr std::array rules{KeyRule{KeyRule::Kind::exactly_one, {"image", "constant"}}};
 };
 
-using LightKind = std::variant<PointLight, SpotLight, DirectionalLight, SphereLight, QuadLight, DiskLight, EnvironmentLight>;
+using LightKind = std::variant<PointLight, SpotLight, DirectionalLight, SphereLight, QuadLight,
+                               DiskLight, EnvironmentLight>;
 struct Light {
   LightKind kind;
 };

@@ -18,7 +18,8 @@ template <>
 struct Schema<Diffuse> {
   static constexpr std::string_view name = "diffuse";
   static constexpr std::string_view doc = "An ideal matt surface.";
-  static constexpr auto keys = std::tuple{required(&Diffuse::color, "color", range::non_negative, "albedo")};
+  static constexpr auto keys =
+      std::tuple{required(&Diffuse::color, "color", range::non_negative, "albedo")};
   static constexpr auto rules = no_rules;
 };
 
@@ -33,7 +34,8 @@ struct Phong {
 template <>
 struct Schema<Phong> {
   static constexpr std::string_view name = "phong";
-  static constexpr std::string_view doc = "The course's and Whitted's material: diffuse, specular lobe, mirror and refraction weights.";
+  static constexpr std::string_view doc =
+      "The course's and Whitted's material: diffuse, specular lobe, mirror and refraction weights.";
   static constexpr auto keys = std::tuple{
       required(&Phong::diffuse, "diffuse", range::non_negative, "diffuse colour"),
       key(&Phong::specular, "specular", range::non_negative, "colour of the specular lobe"),
@@ -52,7 +54,8 @@ template <>
 struct Schema<Mirror> {
   static constexpr std::string_view name = "mirror";
   static constexpr std::string_view doc = "A perfect mirror.";
-  static constexpr auto keys = std::tuple{key(&Mirror::color, "color", range::non_negative, "reflectance")};
+  static constexpr auto keys =
+      std::tuple{key(&Mirror::color, "color", range::non_negative, "reflectance")};
   static constexpr auto rules = no_rules;
 };
 
@@ -65,20 +68,33 @@ struct Dielectric {
 template <>
 struct Schema<Dielectric> {
   static constexpr std::string_view name = "dielectric";
-  static constexpr std::string_view doc = "Glass, water and other clear media: exact Fresnel reflection and refraction.";
+  static constexpr std::string_view doc =
+      "Glass, water and other clear media: exact Fresnel reflection and refraction.";
   static constexpr auto keys = std::tuple{
       key(&Dielectric::ior, "ior", range::positive, "index of refraction, inside over outside"),
       key(&Dielectric::tint, "tint", range::non_negative, "factor on what passes the surface"),
-      key(&Dielectric::roughness, "roughness", range::unit, "0 is smooth; alpha is roughness squared"),
-      key(&Dielectric::absorption, "absorption", range::non_negative, "absorption coefficient inside [1/m]"),
+      key(&Dielectric::roughness, "roughness", range::unit,
+          "0 is smooth; alpha is roughness squared"),
+      key(&Dielectric::absorption, "absorption", range::non_negative,
+          "absorption coefficient inside [1/m]"),
   };
   static constexpr auto rules = no_rules;
 };
 
-enum class ConductorPreset : std::uint8_t { gold, silver, copper, aluminium, iron, brass, chromium, titanium };
+enum class ConductorPreset : std::uint8_t {
+  gold,
+  silver,
+  copper,
+  aluminium,
+  iron,
+  brass,
+  chromium,
+  titanium
+};
 template <>
 struct EnumNames<ConductorPreset> {
-  static constexpr std::array<std::string_view, 8> names{"gold", "silver", "copper", "aluminium", "iron", "brass", "chromium", "titanium"};
+  static constexpr std::array<std::string_view, 8> names{"gold", "silver", "copper",   "aluminium",
+                                                         "iron", "brass",  "chromium", "titanium"};
 };
 struct Conductor {
   std::optional<ConductorPreset> preset;
@@ -96,7 +112,8 @@ struct Schema<Conductor> {
       key(&Conductor::f0, "f0", range::unit, "reflectance at normal incidence"),
       key(&Conductor::eta, "eta", range::positive, "real part of the index of refraction"),
       key(&Conductor::k, "k", range::non_negative, "imaginary part of the index of refraction"),
-      key(&Conductor::roughness, "roughness", range::unit, "0 is smooth; alpha is roughness squared"),
+      key(&Conductor::roughness, "roughness", range::unit,
+          "0 is smooth; alpha is roughness squared"),
   };
   static constexpr std::array rules{
       KeyRule{KeyRule::Kind::exactly_one, {"preset", "f0", "eta"}},
@@ -112,11 +129,13 @@ struct Ggx {
 template <>
 struct Schema<Ggx> {
   static constexpr std::string_view name = "ggx";
-  static constexpr std::string_view doc = "A diffuse base under a rough coat that conserves energy.";
+  static constexpr std::string_view doc =
+      "A diffuse base under a rough coat that conserves energy.";
   static constexpr auto keys = std::tuple{
       required(&Ggx::base, "base", range::non_negative, "colour of the diffuse base"),
       key(&Ggx::f0, "f0", range::unit, "reflectance of the coat at normal incidence"),
-      required(&Ggx::roughness, "roughness", range::unit, "0 is smooth; alpha is roughness squared"),
+      required(&Ggx::roughness, "roughness", range::unit,
+               "0 is smooth; alpha is roughness squared"),
   };
   static constexpr auto rules = no_rules;
 };
@@ -151,9 +170,11 @@ struct Schema<MaterialCommon> {
   static constexpr std::string_view name = "material";
   static constexpr std::string_view doc = "Keys common to all materials.";
   static constexpr auto keys = std::tuple{
-      key(&MaterialCommon::emission, "emission", range::non_negative, "emitted radiance [W/m^2/sr]"),
+      key(&MaterialCommon::emission, "emission", range::non_negative,
+          "emitted radiance [W/m^2/sr]"),
       key(&MaterialCommon::opacity, "opacity", range::unit, "below 1 light passes at random"),
-      key(&MaterialCommon::cutout, "cutout", range::unit, "opacity below this is a hole, above it solid"),
+      key(&MaterialCommon::cutout, "cutout", range::unit,
+          "opacity below this is a hole, above it solid"),
       key(&MaterialCommon::normal_map, "normal_map", range::any, "tangent-space normal image"),
       key(&MaterialCommon::two_sided, "two_sided", range::any, "emit from both sides"),
   };

@@ -1,5 +1,5 @@
-// Values of keys as source text in canonical form: SI numbers, shortest exact, whole numbers without
-// a point, angles with `rad`. Ids are printed by who knows their names.
+// Values of keys as source text in canonical form: SI numbers, shortest exact, whole numbers
+// without a point, angles with `rad`. Ids are printed by who knows their names.
 #pragma once
 
 #include <array>

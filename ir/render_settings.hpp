@@ -20,7 +20,8 @@ struct EnumNames<Method> {
 enum class FilterKind : std::uint8_t { tent, box, gaussian, mitchell, blackman_harris };
 template <>
 struct EnumNames<FilterKind> {
-  static constexpr std::array<std::string_view, 5> names{"tent", "box", "gaussian", "mitchell", "blackman_harris"};
+  static constexpr std::array<std::string_view, 5> names{"tent", "box", "gaussian", "mitchell",
+                                                         "blackman_harris"};
 };
 // Written `tent(1.0)` or `.box` (then with the kind's usual radius), radius in pixels.
 struct PixelFilter {
@@ -47,10 +48,21 @@ template <>
 struct EnumNames<SamplerKind> {
   static constexpr std::array<std::string_view, 2> names{"sobol", "independent"};
 };
-enum class Aov : std::uint8_t { albedo, normal, depth, position, uv, ids, variance, samples, trust };
+enum class Aov : std::uint8_t {
+  albedo,
+  normal,
+  depth,
+  position,
+  uv,
+  ids,
+  variance,
+  samples,
+  trust
+};
 template <>
 struct EnumNames<Aov> {
-  static constexpr std::array<std::string_view, 9> names{"albedo", "normal", "depth", "position", "uv", "ids", "variance", "samples", "trust"};
+  static constexpr std::array<std::string_view, 9> names{
+      "albedo", "normal", "depth", "position", "uv", "ids", "variance", "samples", "trust"};
 };
 
 struct ImageSize {
@@ -87,8 +99,9 @@ struct EnumNames<EffectSwitch> {
   static constexpr std::array<std::string_view, 2> names{"auto", "off"};
 };
 struct EffectSwitches {
-  EffectSwitch shadows{}, reflection{}, refraction{}, absorption{}, glossy{}, interreflection{}, caustics{}, textures{},
-      alpha{}, normal_maps{}, area_lights{}, environment{}, many_lights{}, depth_of_field{}, nested_media{};
+  EffectSwitch shadows{}, reflection{}, refraction{}, absorption{}, glossy{}, interreflection{},
+      caustics{}, textures{}, alpha{}, normal_maps{}, area_lights{}, environment{}, many_lights{},
+      depth_of_field{}, nested_media{};
 };
 template <>
 struct Schema<EffectSwitches> {
@@ -100,16 +113,20 @@ struct Schema<EffectSwitches> {
       key(&EffectSwitches::refraction, "refraction", range::any, "light through clear media"),
       key(&EffectSwitches::absorption, "absorption", range::any, "light lost inside clear media"),
       key(&EffectSwitches::glossy, "glossy", range::any, "blurred reflection and refraction"),
-      key(&EffectSwitches::interreflection, "interreflection", range::any, "light between matt surfaces"),
+      key(&EffectSwitches::interreflection, "interreflection", range::any,
+          "light between matt surfaces"),
       key(&EffectSwitches::caustics, "caustics", range::any, "light gathered by mirrors and glass"),
       key(&EffectSwitches::textures, "textures", range::any, "values that vary over a surface"),
       key(&EffectSwitches::alpha, "alpha", range::any, "opacity below 1 and cut-outs"),
       key(&EffectSwitches::normal_maps, "normal_maps", range::any, "normals from images"),
-      key(&EffectSwitches::area_lights, "area_lights", range::any, "soft shadows of lights with an area"),
+      key(&EffectSwitches::area_lights, "area_lights", range::any,
+          "soft shadows of lights with an area"),
       key(&EffectSwitches::environment, "environment", range::any, "light from all round"),
       key(&EffectSwitches::many_lights, "many_lights", range::any, "choice among many lights"),
-      key(&EffectSwitches::depth_of_field, "depth_of_field", range::any, "blur off the sharp distance"),
-      key(&EffectSwitches::nested_media, "nested_media", range::any, "clear media inside each other"),
+      key(&EffectSwitches::depth_of_field, "depth_of_field", range::any,
+          "blur off the sharp distance"),
+      key(&EffectSwitches::nested_media, "nested_media", range::any,
+          "clear media inside each other"),
   };
   static constexpr auto rules = no_rules;
 };
@@ -124,7 +141,8 @@ struct RenderSettings {
   PixelFilter filter;
   FilmKind film = FilmKind::standard;
   Color background = black;
-  bool background_written = false;  // not a key: with an environment a written background replaces it for camera rays
+  bool background_written =
+      false;  // not a key: with an environment a written background replaces it for camera rays
   double exposure = 0;
   Tonemap tonemap = Tonemap::srgb;
   SamplerKind sampler = SamplerKind::sobol;
@@ -142,20 +160,24 @@ struct Schema<RenderSettings> {
       key(&RenderSettings::size, "size", range::between(1, 65535), "width and height in pixels"),
       key(&RenderSettings::method, "method", range::any, "how light is followed"),
       key(&RenderSettings::samples, "samples", range::between(1, 1048576), "samples a pixel"),
-      key(&RenderSettings::max_depth, "max_depth", range::between(0, 1024), "bounces at most; none: chance ends paths"),
+      key(&RenderSettings::max_depth, "max_depth", range::between(0, 1024),
+          "bounces at most; none: chance ends paths"),
       key(&RenderSettings::seed, "seed", range::non_negative, "seed of all random choices"),
       key(&RenderSettings::filter, "filter", range::any, "pixel filter"),
       key(&RenderSettings::film, "film", range::any, "how samples become bytes"),
-      key(&RenderSettings::background, "background", range::non_negative, "what a ray that leaves the scene sees"),
+      key(&RenderSettings::background, "background", range::non_negative,
+          "what a ray that leaves the scene sees"),
       key(&RenderSettings::exposure, "exposure", range::any, "stops; each doubles the picture"),
       key(&RenderSettings::tonemap, "tonemap", range::any, "transfer curve of 8-bit output"),
       key(&RenderSettings::sampler, "sampler", range::any, "kind of random numbers"),
       key(&RenderSettings::aovs, "aovs", range::any, "extra layers"),
-      key(&RenderSettings::region, "region", range::non_negative, "pixels to render: [x0, y0, x1, y1)"),
+      key(&RenderSettings::region, "region", range::non_negative,
+          "pixels to render: [x0, y0, x1, y1)"),
       key(&RenderSettings::stop, "stop", range::any, "when to stop"),
       key(&RenderSettings::effects, "effects", range::any, "effects switched off"),
   };
-  static constexpr std::array rules{KeyRule{KeyRule::Kind::at_most_one, {"samples", "stop.samples"}}};
+  static constexpr std::array rules{
+      KeyRule{KeyRule::Kind::at_most_one, {"samples", "stop.samples"}}};
 };
 
 }  // namespace scenec::ir

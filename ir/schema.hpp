@@ -1,6 +1,7 @@
 // `Schema<T>` says everything about the keys of T once: name, member, whether it is required, its
-// range, its documentation and the rules between keys. Checking, defaults (the member initialisers),
-// dump, hash, formatter order, completion, `scenec schema` and the manual derive from it.
+// range, its documentation and the rules between keys. Checking, defaults (the member
+// initialisers), dump, hash, formatter order, completion, `scenec schema` and the manual derive
+// from it.
 #pragma once
 
 #include <array>
@@ -29,8 +30,11 @@ inline constexpr Range any{};
 inline constexpr Range positive{.low = 0, .low_open = true};
 inline constexpr Range non_negative{.low = 0};
 inline constexpr Range unit{.low = 0, .high = 1};
-inline constexpr Range half_turn{.low = 0, .high = 3.141592653589793, .low_open = true, .high_open = true};
-[[nodiscard]] constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
+inline constexpr Range half_turn{
+    .low = 0, .high = 3.141592653589793, .low_open = true, .high_open = true};
+[[nodiscard]] constexpr Range between(double low, double high) {
+  return {.low = low, .high = high};
+}
 }  // namespace range
 
 enum class Need : std::uint8_t { optional, required };
@@ -39,18 +43,20 @@ enum class Need : std::uint8_t { optional, required };
 template <class T, class Member>
 struct Key {
   using member_type = Member;
-  Member T::* member;
+  Member T::*member;
   std::string_view name;
   Need need = Need::optional;
   Range range{};
   std::string_view doc;
 };
 template <class T, class Member>
-[[nodiscard]] constexpr Key<T, Member> key(Member T::* member, std::string_view name, Range range, std::string_view doc) {
+[[nodiscard]] constexpr Key<T, Member> key(Member T::*member, std::string_view name, Range range,
+                                           std::string_view doc) {
   return {member, name, Need::optional, range, doc};
 }
 template <class T, class Member>
-[[nodiscard]] constexpr Key<T, Member> required(Member T::* member, std::string_view name, Range range, std::string_view doc) {
+[[nodiscard]] constexpr Key<T, Member> required(Member T::*member, std::string_view name,
+                                                Range range, std::string_view doc) {
   return {member, name, Need::required, range, doc};
 }
 
@@ -62,7 +68,8 @@ struct KeyRule {
 };
 
 template <class T>
-struct Schema;  // static constexpr: std::string_view name, doc; auto keys = std::tuple{...}; auto rules = std::array<KeyRule, n>
+struct Schema;  // static constexpr: std::string_view name, doc; auto keys = std::tuple{...}; auto
+                // rules = std::array<KeyRule, n>
 
 template <class T>
 concept HasSchema = requires {

@@ -19,7 +19,8 @@ struct Sphere {
 template <>
 struct Schema<Sphere> {
   static constexpr std::string_view name = "sphere";
-  static constexpr std::string_view doc = "A sphere; u runs counter-clockwise about +y from +x, v from south to north.";
+  static constexpr std::string_view doc =
+      "A sphere; u runs counter-clockwise about +y from +x, v from south to north.";
   static constexpr auto keys = std::tuple{
       key(&Sphere::center, "center", range::any, "centre"),
       key(&Sphere::radius, "radius", range::positive, "distance from centre to surface"),
@@ -50,7 +51,8 @@ struct Triangle {
 template <>
 struct Schema<Triangle> {
   static constexpr std::string_view name = "triangle";
-  static constexpr std::string_view doc = "A triangle; counter-clockwise vertices face the viewer with their outer side.";
+  static constexpr std::string_view doc =
+      "A triangle; counter-clockwise vertices face the viewer with their outer side.";
   static constexpr auto keys = std::tuple{
       required(&Triangle::vertices, "vertices", range::any, "the three corners"),
       key(&Triangle::normals, "normals", range::any, "shading normals at the corners"),
@@ -152,13 +154,16 @@ struct Mesh {
 template <>
 struct Schema<Mesh> {
   static constexpr std::string_view name = "mesh";
-  static constexpr std::string_view doc = "Triangles and polygons from an OBJ or PLY file, or listed inline.";
+  static constexpr std::string_view doc =
+      "Triangles and polygons from an OBJ or PLY file, or listed inline.";
   static constexpr auto keys = std::tuple{
       key(&Mesh::file, "file", range::any, "OBJ or PLY file"),
       key(&Mesh::unit, "unit", range::positive, "length of one unit of the file"),
-      key(&Mesh::normals, "normals", range::any, "which shading normals to use, or one normal a vertex"),
+      key(&Mesh::normals, "normals", range::any,
+          "which shading normals to use, or one normal a vertex"),
       key(&Mesh::vertices, "vertices", range::any, "positions"),
-      key(&Mesh::faces, "faces", range::any, "lists of 0-based vertex indices, counter-clockwise from outside"),
+      key(&Mesh::faces, "faces", range::any,
+          "lists of 0-based vertex indices, counter-clockwise from outside"),
       key(&Mesh::uvs, "uvs", range::any, "one texture coordinate a vertex"),
   };
   static constexpr std::array rules{
@@ -191,7 +196,8 @@ struct Schema<Revolve> {
       required(&Revolve::profile, "profile", range::any, "curve of [radius, height] points"),
       key(&Revolve::axis, "axis", range::any, "axis of rotation through the origin"),
       key(&Revolve::solver, "solver", range::any, "how rays meet the surface"),
-      key(&Revolve::steps, "steps", range::between(3, 65536), "steps round the axis when tessellated"),
+      key(&Revolve::steps, "steps", range::between(3, 65536),
+          "steps round the axis when tessellated"),
   };
   static constexpr auto rules = no_rules;
 };
@@ -219,7 +225,8 @@ struct Schema<Placing> {
   static constexpr std::string_view doc = "Keys common to all placed items.";
   static constexpr auto keys = std::tuple{
       key(&Placing::material, "material", range::any, "what it is made of"),
-      key(&Placing::transform, "transform", range::any, "a transform or a list of them, the first applied first"),
+      key(&Placing::transform, "transform", range::any,
+          "a transform or a list of them, the first applied first"),
   };
   static constexpr auto rules = no_rules;
 };
@@ -227,8 +234,9 @@ struct Schema<Placing> {
 // The closed list of shapes; a new one is added here and in the backend's dispatch.
 template <class... Ts>
 struct TypeList {};
-using ShapeTypes = TypeList<Sphere, Plane, Triangle, Quad, Disk, Box, Cylinder, Mesh, Revolve, Instance>;
-using ShapeRef = std::variant<Id<Sphere>, Id<Plane>, Id<Triangle>, Id<Quad>, Id<Disk>, Id<Box>, Id<Cylinder>,
-                              Id<Mesh>, Id<Revolve>, Id<Instance>>;
+using ShapeTypes =
+    TypeList<Sphere, Plane, Triangle, Quad, Disk, Box, Cylinder, Mesh, Revolve, Instance>;
+using ShapeRef = std::variant<Id<Sphere>, Id<Plane>, Id<Triangle>, Id<Quad>, Id<Disk>, Id<Box>,
+                              Id<Cylinder>, Id<Mesh>, Id<Revolve>, Id<Instance>>;
 
 }  // namespace scenec::ir

@@ -1,4 +1,5 @@
-// Textures: expressions over the surface's uv, stored as a table of nodes that refer to earlier ones.
+// Textures: expressions over the surface's uv, stored as a table of nodes that refer to earlier
+// ones.
 #pragma once
 
 #include <cstdint>
@@ -78,8 +79,9 @@ struct ChannelTexture {
   Channel channel = Channel::r;
 };
 
-using TextureKind = std::variant<ImageTexture, CheckerTexture, FractalTexture, RampTexture, GridTexture,
-                                 ConstantTexture, ProductTexture, MixTexture, ChannelTexture>;
+using TextureKind =
+    std::variant<ImageTexture, CheckerTexture, FractalTexture, RampTexture, GridTexture,
+                 ConstantTexture, ProductTexture, MixTexture, ChannelTexture>;
 // Every node gives a colour. A scalar node was written with numbers (or picks a channel): all its
 // colours are greys, it may stand where a number is wanted, and its constants print as numbers.
 struct TextureNode {
