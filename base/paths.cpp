@@ -16,6 +16,11 @@ std::vector<std::string_view> parts_of(std::string_view path) {
   return parts;
 }
 
+// Of a normalised path; "." names nothing.
+std::vector<std::string_view> named_parts_of(std::string_view path) {
+  return path == "." ? std::vector<std::string_view>{} : parts_of(path);
+}
+
 std::string joined_parts(const std::vector<std::string_view>& parts, bool absolute) {
   std::string path = absolute ? "/" : "";
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -58,8 +63,8 @@ std::string relative_path(std::string_view path, std::string_view directory) {
   const std::string target = normalized_path(path);
   const std::string start = normalized_path(directory);
   if (target.starts_with('/') != start.starts_with('/')) return target;
-  const auto target_parts = parts_of(target == "." ? "" : target);
-  const auto start_parts = parts_of(start == "." ? "" : start);
+  const auto target_parts = named_parts_of(target);
+  const auto start_parts = named_parts_of(start);
   std::size_t common = 0;
   while (common < target_parts.size() && common < start_parts.size() &&
          target_parts[common] == start_parts[common]) {

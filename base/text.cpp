@@ -30,17 +30,33 @@ std::string short_number_text(double value) {
   return fmt::format("{:.6g}", value == 0 ? 0.0 : value);
 }
 
+namespace {
+
+// The decimal exponent of the first digit that is not 0 of a well-formed number that is not 0.
+std::int64_t leading_exponent(std::string_view number) {
+  constexpr std::int64_t beyond_every_text = std::int64_t{1} << 40;
+  const std::size_t e = number.find_first_of("eE");
+  const std::string_view digits = number.substr(0, e);
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  const std::size_t first = digits.find_first_of("123456789");
+  const auto place = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first);
+  if (e == std::string_view::npos) return place;
+  std::string_view written = number.substr(e + 1);
+  if (written.starts_with('+')) written.remove_prefix(1);
+  const std::int64_t saturated = written.starts_with('-') ? -beyond_every_text : beyond_every_text;
+  return place + parse_int(written).value_or(saturated);
+}
+
+}  // namespace
+
 std::optional<double> parse_double(std::string_view text) {
   const char* const end = text.data() + text.size();
   double value = 0;
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (rest != end || text.empty()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // Too large and too small are reported alike and leave `value` alone. What is too small rounds
-    // to zero; it is told apart by its exponent, since no one writes 300 digits before the point.
-    const std::size_t exponent = text.find_first_of("eE");
-    const bool tiny = exponent != std::string_view::npos && text.substr(exponent + 1, 1) == "-";
-    if (!tiny) return std::nullopt;
+    // Too large and too small are reported alike; what is too small rounds to zero.
+    if (leading_exponent(text) > 0) return std::nullopt;
     return text.front() == '-' ? -0.0 : 0.0;
   }
   if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
@@ -95,7 +111,8 @@ std::optional<std::string_view> nearest_name(std::string_view word,
   // A third of the letters may be wrong; below three letters, one.
   std::size_t bound = std::max<std::size_t>(word.size(), 3) / 3 + 1;
   for (const std::string_view candidate : candidates) {
-    const auto [shorter, longer] = std::minmax(word.size(), candidate.size());
+    const std::size_t shorter = std::min(word.size(), candidate.size());
+    const std::size_t longer = std::max(word.size(), candidate.size());
     if (longer > longest_compared_name || longer - shorter >= bound) continue;
     const std::size_t distance = edit_distance(word, candidate);
     // Something must be in common: `x` is not near `y`.
