@@ -1,0 +1,211 @@
+#include "runtime/options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "base/text.hpp"
+
+namespace scenec::runtime {
+
+namespace {
+
+using Problem = std::optional<std::string>;
+
+constexpr VerbSet render_only{Verb::render};
+constexpr VerbSet compiling{Verb::render, Verb::check, Verb::dump};
+constexpr VerbSet reading{Verb::render, Verb::check, Verb::dump, Verb::convert};
+constexpr VerbSet writing{Verb::render, Verb::dump, Verb::convert};
+
+constexpr std::int64_t largest_sample_count = 1048576;
+constexpr std::int64_t largest_thread_count = 1024;
+constexpr std::int64_t largest_item_limit = 1'000'000'000;
+
+// `Target` is the optional member that takes the value.
+template <class Target, class T>
+Problem store_parsed(Target& target, Parsed<T> value) {
+  if (!value) return value.error();
+  target = std::move(value).value();
+  return std::nullopt;
+}
+
+// The enumerator whose name is `text`; else the list of names, the nearest one first.
+template <class E, std::size_t count, class Target>
+Problem store_choice(Target& target, std::string_view text,
+                     const std::array<std::string_view, count>& names) {
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found != names.end()) {
+    target = static_cast<E>(found - names.begin());
+    return std::nullopt;
+  }
+  const std::string list = "one of " + quoted_list(names);
+  const std::optional<std::string_view> nearest = nearest_name(text, names);
+  return nearest ? fmt::format("{}; did you mean `{}`?", list, *nearest) : list;
+}
+
+Problem store_stats(Options& options, std::string_view text) {
+  constexpr std::string_view json_prefix = "json:";
+  if (text.empty() || text == "table") {
+    options.stats = StatsForm::table;
+    return std::nullopt;
+  }
+  if (!text.starts_with(json_prefix) || text.size() == json_prefix.size()) {
+    return "`table` or `json:FILE`";
+  }
+  options.stats = StatsForm::json;
+  options.stats_file = text.substr(json_prefix.size());
+  return std::nullopt;
+}
+
+Problem store_setting(Options& options, std::string_view text) {
+  Parsed<NameAndValue> setting = parse_setting(text);
+  if (!setting) return setting.error();
+  const auto same_name = [&](const NameAndValue& other) {
+    return other.name == setting.value().name;
+  };
+  if (std::any_of(options.settings.begin(), options.settings.end(), same_name)) {
+    return fmt::format("one value for each parameter; `{}` has two", setting.value().name);
+  }
+  options.settings.push_back(std::move(setting).value());
+  return std::nullopt;
+}
+
+Problem store_path(std::string& target, std::string_view text) {
+  if (text.empty()) return "the name of a file";
+  target = text;
+  return std::nullopt;
+}
+
+using Text = std::string_view;
+constexpr std::array option_table{
+    OptionRow{"-o,--output", "FILE", "where to write (render: .png, .exr or .bmp)", writing,
+              [](Options& o, Text v) { return store_path(o.output, v); }},
+    OptionRow{"--size", "WxH", "width and height in pixels", render_only,
+              [](Options& o, Text v) { return store_parsed(o.size, parse_size(v)); }},
+    OptionRow{"--samples", "N", "samples a pixel; replaces the scene's samples and stop",
+              render_only,
+              [](Options& o, Text v) {
+                return store_parsed(o.samples, parse_whole_number(v, 1, largest_sample_count));
+              }},
+    OptionRow{"--time", "TIME", "stop after this time: 500ms, 30s, 2min, 1h", render_only,
+              [](Options& o, Text v) { return store_parsed(o.time, parse_duration(v)); }},
+    OptionRow{"--seed", "N", "seed of all random choices", render_only,
+              [](Options& o, Text v) {
+                return store_parsed(
+                    o.seed, parse_whole_number(v, 0, std::numeric_limits<std::int64_t>::max()));
+              }},
+    OptionRow{"--method", "NAME", "path, whitted or phong", compiling,
+              [](Options& o, Text v) {
+                return store_choice<ir::Method>(o.method, v, ir::EnumNames<ir::Method>::names);
+              }},
+    OptionRow{"--camera", "NAME", "which camera of the scene", render_only,
+              [](Options& o, Text v) -> Problem {
+                o.camera = std::string(v);
+                return std::nullopt;
+              }},
+    OptionRow{"--region", "x0,y0,x1,y1", "render these pixels only", render_only,
+              [](Options& o, Text v) { return store_parsed(o.region, parse_region(v)); }},
+    OptionRow{"-D", "NAME=VALUE", "set a parameter of the scene; may be repeated", compiling,
+              store_setting, ValueNeed::required, Repeat::many},
+    OptionRow{"--dialect", "NAME", "sdl or course; else decided by the file", reading,
+              [](Options& o, Text v) {
+                constexpr std::array<Text, 2> names{"sdl", "course"};
+                return store_choice<grammar::Dialect>(o.dialect, v, names);
+              }},
+    OptionRow{"--half", "", "16-bit floats in EXR files", render_only,
+              [](Options& o, Text) -> Problem {
+                o.half = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
+    OptionRow{"--stamp", "", "write date, host, threads and paths into the picture", render_only,
+              [](Options& o, Text) -> Problem {
+                o.stamp = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
+    OptionRow{"--stage", "NAME", "tree, ast or ir (default)", VerbSet{Verb::dump},
+              [](Options& o, Text v) {
+                constexpr std::array<Text, 3> names{"tree", "ast", "ir"};
+                return store_choice<DumpStage>(o.stage, v, names);
+              }},
+    OptionRow{"--max-items", "N", "limit of placed items (default 2000000)", compiling,
+              [](Options& o, Text v) {
+                return store_parsed(o.max_items, parse_whole_number(v, 1, largest_item_limit));
+              }},
+    OptionRow{"--threads", "N", "threads to work with (default: all)",
+              VerbSet{Verb::render, Verb::check},
+              [](Options& o, Text v) {
+                return store_parsed(o.threads, parse_whole_number(v, 1, largest_thread_count));
+              }},
+    OptionRow{"--progress", "STYLE", "auto, plain, json or none", render_only,
+              [](Options& o, Text v) {
+                constexpr std::array<Text, 4> names{"auto", "plain", "json", "none"};
+                return store_choice<ProgressStyle>(o.progress, v, names);
+              }},
+    OptionRow{"--stats", "table|json:FILE", "say where time and rays went", render_only,
+              store_stats, ValueNeed::optional},
+    OptionRow{"--color", "WHEN", "auto, always or never", reading,
+              [](Options& o, Text v) {
+                constexpr std::array<Text, 3> names{"auto", "always", "never"};
+                return store_choice<ColorChoice>(o.color, v, names);
+              }},
+    OptionRow{"--list", "", "one line for every diagnostic", VerbSet{Verb::explain},
+              [](Options& o, Text) -> Problem {
+                o.list = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
+    OptionRow{"--json", "", "as JSON (default)", VerbSet{Verb::schema},
+              [](Options& o, Text) -> Problem {
+                o.markdown = false;
+                return std::nullopt;
+              },
+              ValueNeed::none},
+    OptionRow{"--markdown", "", "as Markdown tables", VerbSet{Verb::schema},
+              [](Options& o, Text) -> Problem {
+                o.markdown = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
+};
+
+}  // namespace
+
+std::span<const OptionRow> all_options() {
+  return option_table;
+}
+
+std::string picture_command(const Options& options) {
+  std::string text = "scenec render";
+  const auto add = [&](std::string_view name, const std::string& value) {
+    text += fmt::format(" {} {}", name, value);
+  };
+  if (options.size) {
+    add("--size", fmt::format("{}x{}", options.size->width, options.size->height));
+  }
+  if (options.samples) add("--samples", std::to_string(*options.samples));
+  if (options.time) add("--time", short_number_text(options.time->value) + "s");
+  if (options.seed) add("--seed", std::to_string(*options.seed));
+  if (options.method) {
+    const auto index = static_cast<std::size_t>(*options.method);
+    add("--method", std::string(ir::EnumNames<ir::Method>::names[index]));
+  }
+  if (options.camera) add("--camera", *options.camera);
+  if (const auto& region = options.region) {
+    add("--region", fmt::format("{},{},{},{}", region->x0, region->y0, region->x1, region->y1));
+  }
+  std::vector<NameAndValue> settings = options.settings;
+  std::sort(settings.begin(), settings.end(),
+            [](const NameAndValue& a, const NameAndValue& b) { return a.name < b.name; });
+  for (const NameAndValue& setting : settings) add("-D", setting.name + "=" + setting.value);
+  if (options.dialect) {
+    add("--dialect", *options.dialect == grammar::Dialect::sdl ? "sdl" : "course");
+  }
+  if (options.half) text += " --half";
+  return text;
+}
+
+}  // namespace scenec::runtime

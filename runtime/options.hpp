@@ -1,0 +1,91 @@
+// What a command line asks for, as plain values; and the table every option stands in once: from it
+// come parsing, help and the complaint about an option that a verb does not take.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/units.hpp"
+#include "grammar/parse.hpp"
+#include "ir/render_settings.hpp"
+#include "runtime/environment.hpp"
+#include "runtime/option_values.hpp"
+#include "runtime/verbs.hpp"
+
+namespace scenec::runtime {
+
+enum class ProgressStyle : std::uint8_t { automatic, plain, json, none };
+enum class DumpStage : std::uint8_t { tree, ast, ir };
+enum class StatsForm : std::uint8_t { none, table, json };
+
+struct Options {
+  Verb verb = Verb::render;
+  std::vector<std::string> operands;
+  std::string output;  // empty: the verb's default
+
+  // What changes the picture.
+  std::optional<ir::ImageSize> size;
+  std::optional<std::int64_t> samples;
+  std::optional<Time> time;
+  std::optional<std::int64_t> seed;
+  std::optional<ir::Method> method;
+  std::optional<std::string> camera;
+  std::optional<ir::Region> region;
+  std::vector<NameAndValue> settings;  // -D
+  std::optional<grammar::Dialect> dialect;
+  bool half = false;
+
+  // What does not.
+  std::optional<std::int64_t> max_items;
+  std::optional<std::int64_t> threads;
+  bool stamp = false;
+  ColorChoice color = ColorChoice::automatic;
+  ProgressStyle progress = ProgressStyle::automatic;
+  StatsForm stats = StatsForm::none;
+  std::string stats_file;  // of StatsForm::json
+  DumpStage stage = DumpStage::ir;
+  bool list = false;
+  bool markdown = false;
+};
+
+class VerbSet {
+ public:
+  constexpr VerbSet(std::initializer_list<Verb> verbs) {
+    for (const Verb verb : verbs) bits_ |= bit(verb);
+  }
+  [[nodiscard]] constexpr bool contains(Verb verb) const { return (bits_ & bit(verb)) != 0; }
+
+ private:
+  static constexpr unsigned bit(Verb verb) { return 1u << static_cast<unsigned>(verb); }
+  unsigned bits_ = 0;
+};
+
+enum class ValueNeed : std::uint8_t {
+  required,
+  optional,  // only as `--name=VALUE`
+  none,
+};
+enum class Repeat : std::uint8_t { once, many };
+
+struct OptionRow {
+  std::string_view names;  // "-o,--output"
+  std::string_view value;  // how help names the value
+  std::string_view help;
+  VerbSet verbs;
+  // Stores the value; returns what the value would have had to be.
+  std::optional<std::string> (*store)(Options& options, std::string_view value);
+  ValueNeed need = ValueNeed::required;
+  Repeat repeat = Repeat::once;
+};
+[[nodiscard]] std::span<const OptionRow> all_options();
+
+// The options that change the picture in a fixed order and form: the same picture has the same
+// command, whatever was typed.
+[[nodiscard]] std::string picture_command(const Options& options);
+
+}  // namespace scenec::runtime

@@ -1,0 +1,51 @@
+// One run of the compiler: the recording file system, the texts that were read and the diagnostics
+// that were found. Everything a verb does with a scene file goes through a session.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/diagnostic.hpp"
+#include "base/file_system.hpp"
+#include "base/source_map.hpp"
+#include "frontend/compile.hpp"
+#include "ir/scene.hpp"
+#include "runtime/environment.hpp"
+#include "runtime/exit_codes.hpp"
+#include "runtime/options.hpp"
+
+namespace scenec::runtime {
+
+class Session {
+ public:
+  explicit Session(const Options& options);
+
+  // The scene file as the file system opens it and messages name it: relative to the working
+  // directory when it lies beneath it.
+  [[nodiscard]] const std::string& scene_path() const { return scene_path_; }
+  [[nodiscard]] RecordingFileSystem& files() { return files_; }
+  [[nodiscard]] SourceMap& sources() { return sources_; }
+  [[nodiscard]] DiagnosticSink& sink() { return sink_; }
+
+  [[nodiscard]] std::optional<frontend::LoadedFile> load(
+      const std::optional<std::string>& output_directory = std::nullopt);
+  [[nodiscard]] std::optional<ir::Scene> compile(const frontend::LoadedFile& file);
+
+  // Whether one of the files read so far is the file `path` names, by whatever name.
+  [[nodiscard]] bool has_read(const std::string& path) const;
+
+  // Prints what was found, sorted, and a line that counts; returns the exit code it calls for.
+  [[nodiscard]] ExitCode finish(const Environment& environment) const;
+
+ private:
+  const Options& options_;
+  frontend::CompileOptions compile_options_;
+  std::string scene_path_;
+  bool scene_unreadable_ = false;
+  RealFileSystem disk_;
+  RecordingFileSystem files_;
+  SourceMap sources_;
+  DiagnosticSink sink_;
+};
+
+}  // namespace scenec::runtime

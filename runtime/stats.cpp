@@ -1,0 +1,77 @@
+#include "runtime/stats.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace scenec::runtime {
+
+namespace {
+
+constexpr std::string_view render_phase = "render";
+
+double peak_megabytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts in KiB
+}
+
+double per_second(double amount, double seconds) {
+  return seconds > 0 ? amount / seconds : 0;
+}
+
+double sample_count(const RunStats& stats) {
+  return static_cast<double>(stats.samples) * static_cast<double>(stats.pixels);
+}
+
+}  // namespace
+
+double RunStats::seconds_of(std::string_view phase) const {
+  for (const auto& [name, seconds] : phases) {
+    if (name == phase) return seconds;
+  }
+  return 0;
+}
+
+void PhaseClock::finish(std::string phase) {
+  const Clock::time_point now = Clock::now();
+  stats_.phases.emplace_back(std::move(phase), std::chrono::duration<double>(now - last_).count());
+  last_ = now;
+}
+
+std::string stats_table(const RunStats& stats) {
+  std::string text;
+  double total = 0;
+  for (const auto& [name, seconds] : stats.phases) {
+    text += fmt::format("{:<18}{:>12.3f} s\n", name, seconds);
+    total += seconds;
+  }
+  const double rendering = stats.seconds_of(render_phase);
+  text += fmt::format("{:<18}{:>12.3f} s\n", "total", total);
+  text += fmt::format("{:<18}{:>12}\n", "samples a pixel", stats.samples);
+  text += fmt::format("{:<18}{:>12.3f} M/s\n", "samples",
+                      per_second(sample_count(stats), rendering) * 1e-6);
+  text += fmt::format("{:<18}{:>12}\n", "rays", stats.rays);
+  text += fmt::format("{:<18}{:>12.3f} M/s\n", "ray rate",
+                      per_second(static_cast<double>(stats.rays), rendering) * 1e-6);
+  if (stats.dropped_samples > 0) {
+    text += fmt::format("{:<18}{:>12}\n", "dropped samples", stats.dropped_samples);
+  }
+  return text + fmt::format("{:<18}{:>12.1f} MiB\n", "peak memory", peak_megabytes());
+}
+
+std::string stats_json(const RunStats& stats) {
+  nlohmann::ordered_json json;
+  for (const auto& [name, seconds] : stats.phases) json["seconds"][name] = seconds;
+  const double rendering = stats.seconds_of(render_phase);
+  json["samples_per_pixel"] = stats.samples;
+  json["samples_per_second"] = per_second(sample_count(stats), rendering);
+  json["rays"] = stats.rays;
+  json["rays_per_second"] = per_second(static_cast<double>(stats.rays), rendering);
+  json["dropped_samples"] = stats.dropped_samples;
+  json["peak_mebibytes"] = peak_megabytes();
+  return json.dump(2) + "\n";
+}
+
+}  // namespace scenec::runtime

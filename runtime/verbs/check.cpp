@@ -1,0 +1,20 @@
+// `scenec check`: compiles a scene and reads its assets; silent when all is well.
+#include "backend/backend.hpp"
+#include "base/parallel.hpp"
+#include "runtime/session.hpp"
+#include "runtime/verbs.hpp"
+
+namespace scenec::runtime {
+
+ExitCode verbs::check(const Options& options, const Environment& environment) {
+  Session session(options);
+  if (const auto file = session.load()) {
+    if (const auto scene = session.compile(*file)) {
+      ThreadPool pool(static_cast<unsigned>(options.threads.value_or(0)));
+      static_cast<void>(backend::prepare(*scene, session.files(), pool, session.sink()));
+    }
+  }
+  return session.finish(environment);
+}
+
+}  // namespace scenec::runtime

@@ -1,0 +1,32 @@
+// `scenec dump`: the result of one stage of the compiler as text.
+#include "ir/dump.hpp"
+#include "base/file_system.hpp"
+#include "grammar/syntax_tree.hpp"
+#include "runtime/output.hpp"
+#include "runtime/session.hpp"
+#include "runtime/verbs.hpp"
+
+namespace scenec::runtime {
+
+ExitCode verbs::dump(const Options& options, const Environment& environment) {
+  Session session(options);
+  if (!options.output.empty() && !check_output(options.output, session.sink())) {
+    static_cast<void>(session.finish(environment));
+    return ExitCode::file_error;
+  }
+  const auto file = session.load();
+  if (!file) return session.finish(environment);
+  if (options.stage == DumpStage::tree) {
+    return write_text(options.output, grammar::dump_tree(file->tree), session, environment);
+  }
+  if (options.stage == DumpStage::ast) {
+    return write_text(options.output, frontend::dump_ast(file->native_tree()), session,
+                      environment);
+  }
+  const auto scene = session.compile(*file);
+  if (!scene) return session.finish(environment);
+  const std::string text = ir::dump_text(*scene, {.directory = directory_of(options.output)});
+  return write_text(options.output, text, session, environment);
+}
+
+}  // namespace scenec::runtime

@@ -1,0 +1,224 @@
+// `scenec render`: compile, prepare, build, render, write. Whatever can be refused is refused
+// before the first ray; a stop request writes what there is.
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "backend/backend.hpp"
+#include "base/parallel.hpp"
+#include "base/text.hpp"
+#include "runtime/cli.hpp"
+#include "runtime/output.hpp"
+#include "runtime/progress.hpp"
+#include "runtime/session.hpp"
+#include "runtime/signals.hpp"
+#include "runtime/stats.hpp"
+#include "runtime/verbs.hpp"
+
+namespace scenec::runtime {
+
+namespace {
+
+constexpr std::int64_t sample_cap = 1048576;  // of `--time` without `--samples`
+
+std::string default_output(const std::string& scene_path) {
+  return std::filesystem::path(scene_path).stem().string() + ".png";
+}
+
+std::optional<ir::CameraId> find_camera(const ir::Scene& scene, const std::string& name,
+                                        const Environment& environment) {
+  std::vector<std::string_view> names;
+  std::uint32_t index = 0;
+  for (const ir::Declared& declared : scene.camera_names) {
+    if (declared.name.valid()) {
+      names.push_back(scene.names[declared.name]);
+      if (names.back() == name) return ir::CameraId(index);
+    }
+    ++index;
+  }
+  environment.err << fmt::format("scenec: `--camera` is `{}`; the scene has {}\n", printable(name),
+                                 names.empty() ? "no named camera" : quoted_list(names));
+  return std::nullopt;
+}
+
+// The scene's settings with the command line's changes; nullopt when they do not fit the scene.
+std::optional<ir::RenderSettings> settings_of(const Options& options, const ir::Scene& scene,
+                                              const Environment& environment) {
+  ir::RenderSettings settings = scene.render;
+  if (options.camera) {
+    const auto camera = find_camera(scene, *options.camera, environment);
+    if (!camera) return std::nullopt;
+    settings.camera = *camera;
+  }
+  if (options.size) settings.size = *options.size;
+  if (options.method) settings.method = *options.method;
+  if (options.seed) settings.seed = *options.seed;
+  if (options.region) settings.region = options.region;
+  if (options.samples || options.time) {
+    settings.samples = options.samples.value_or(sample_cap);
+    settings.stop = {};
+    settings.stop.time = options.time;
+  }
+  if (const auto& region = settings.region;
+      region && (region->x1 > settings.size.width || region->y1 > settings.size.height)) {
+    environment.err << fmt::format(
+        "scenec: the region {},{},{},{} does not lie inside the picture of {}x{}\n", region->x0,
+        region->y0, region->x1, region->y1, settings.size.width, settings.size.height);
+    return std::nullopt;
+  }
+  return settings;
+}
+
+std::string host_name() {
+  utsname name{};
+  return ::uname(&name) == 0 ? name.nodename : "unknown";
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1,
+                     parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
+}
+
+// No time, host, thread count or path unless `--stamp` asks: the same picture is the same bytes.
+backend::EncodeOptions encode_options(const Options& options, const ir::Scene& scene,
+                                      const ir::RenderSettings& settings,
+                                      const backend::Picture& picture, const ThreadPool& pool) {
+  backend::EncodeOptions encode{.half = options.half, .metadata = {}};
+  encode.metadata = {{"software", std::string(version_text)},
+                     {"scenec/scene_hash", scene.hash.hex()},
+                     {"scenec/command", picture_command(options)},
+                     {"scenec/seed", std::to_string(settings.seed)},
+                     {"scenec/samples", std::to_string(picture.samples)}};
+  if (options.stamp) {
+    encode.metadata.emplace_back("scenec/date", utc_now());
+    encode.metadata.emplace_back("scenec/host", host_name());
+    encode.metadata.emplace_back("scenec/threads", std::to_string(pool.size()));
+    encode.metadata.emplace_back("scenec/scene", options.operands.at(0));
+  }
+  return encode;
+}
+
+class RenderRun {
+ public:
+  RenderRun(const Options& options, const Environment& environment)
+      : options_(options),
+        environment_(environment),
+        signals_(environment.handle_signals ? SignalWatch::Mode::watch : SignalWatch::Mode::ignore),
+        session_(options),
+        output_(options.output.empty() ? default_output(session_.scene_path()) : options.output),
+        clock_(stats_),
+        pool_(static_cast<unsigned>(options.threads.value_or(0))) {}
+
+  ExitCode run() {
+    const auto format = check_picture_output(output_, session_.sink());
+    const bool stats_fit =
+        options_.stats_file.empty() || check_output(options_.stats_file, session_.sink());
+    if (!format || !stats_fit) return refuse_output();
+    const auto file = session_.load();
+    if (!file) return session_.finish(environment_);
+    const auto scene = session_.compile(*file);
+    clock_.finish("compile");
+    if (!scene) return session_.finish(environment_);
+    const auto settings = settings_of(options_, *scene, environment_);
+    if (!settings) return ExitCode::usage;
+    const backend::PreparedPtr prepared =
+        backend::prepare(*scene, session_.files(), pool_, session_.sink());
+    clock_.finish("prepare");
+    if (!prepared) return session_.finish(environment_);
+    if (!check_output_is_no_input(output_, session_)) return refuse_output();
+    static_cast<void>(session_.finish(environment_));  // lints, before the long wait
+    return render(*scene, *settings, *prepared, *format);
+  }
+
+ private:
+  ExitCode refuse_output() {
+    static_cast<void>(session_.finish(environment_));
+    return ExitCode::file_error;
+  }
+
+  ExitCode render(const ir::Scene& scene, const ir::RenderSettings& settings,
+                  const backend::PreparedScene& prepared, backend::ImageFormat format) {
+    const backend::RenderScenePtr built = backend::build(prepared, pool_);
+    clock_.finish("build");
+    signals_.allow_graceful_stop();
+    ProgressPrinter progress(options_.progress, environment_);
+    const backend::Picture picture =
+        backend::render(*built, settings, pool_, signals_.stop(),
+                        [&](const backend::Progress& done) { progress.update(done); });
+    progress.finish();
+    clock_.finish("render");
+    return write(scene, settings, picture, format);
+  }
+
+  ExitCode write(const ir::Scene& scene, const ir::RenderSettings& settings,
+                 const backend::Picture& picture, backend::ImageFormat format) {
+    if (picture.samples == 0) {
+      environment_.err << "scenec: stopped before the first sample; nothing written\n";
+      return exit_code();
+    }
+    const std::string bytes = backend::encode(
+        picture, settings, format, encode_options(options_, scene, settings, picture, pool_));
+    if (const auto problem = write_file(output_, bytes)) return *problem;
+    clock_.finish("write");
+    if (options_.progress != ProgressStyle::none && options_.progress != ProgressStyle::json) {
+      environment_.err << fmt::format(
+          "{}: {}x{}, {} sample{} a pixel, {}{}\n", printable(output_), picture.width,
+          picture.height, picture.samples, picture.samples == 1 ? "" : "s",
+          duration_text(stats_.seconds_of("render")), picture.complete ? "" : ", stopped early");
+    }
+    if (const auto problem = write_stats(picture)) return *problem;
+    return exit_code();
+  }
+
+  // What was found before has been printed; a failure to write is all that is left to say.
+  std::optional<ExitCode> write_file(const std::string& path, std::string_view bytes) {
+    DiagnosticSink sink;
+    if (write_output(path, bytes, sink)) return std::nullopt;
+    for (const Diagnostic& diagnostic : sink.sorted()) {
+      environment_.err << fmt::format("scenec: error[{}]: {}\n", info_of(diagnostic.kind).code,
+                                      diagnostic.message);
+    }
+    return ExitCode::file_error;
+  }
+
+  std::optional<ExitCode> write_stats(const backend::Picture& picture) {
+    stats_.rays = picture.rays;
+    stats_.samples = picture.samples;
+    stats_.pixels = std::int64_t{picture.width} * picture.height;
+    stats_.dropped_samples = picture.dropped_samples;
+    if (options_.stats == StatsForm::table) environment_.err << stats_table(stats_);
+    if (options_.stats != StatsForm::json) return std::nullopt;
+    return write_file(options_.stats_file, stats_json(stats_));
+  }
+
+  [[nodiscard]] ExitCode exit_code() const {
+    const int signal = signals_.signal_received();
+    return signal == 0 ? ExitCode::ok : static_cast<ExitCode>(128 + signal);
+  }
+
+  const Options& options_;
+  const Environment& environment_;
+  SignalWatch signals_;  // before the pool: its threads inherit the blocked signals
+  Session session_;
+  std::string output_;
+  RunStats stats_;
+  PhaseClock clock_;
+  ThreadPool pool_;
+};
+
+}  // namespace
+
+ExitCode verbs::render(const Options& options, const Environment& environment) {
+  return RenderRun(options, environment).run();
+}
+
+}  // namespace scenec::runtime
