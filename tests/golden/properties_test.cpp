@@ -1,0 +1,103 @@
+// What must hold for every scene of the tree, whatever it says: the lossless tree puts its text
+// together again, and the IR printed as source compiles to the same IR and the same print.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/source_map.hpp"
+#include "frontend/compile.hpp"
+#include "grammar/parse.hpp"
+#include "ir/dump.hpp"
+#include "tests/golden/runner.hpp"
+#include "tests/support/paths.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> scene_extensions{".sdl", ".txt"};
+
+std::vector<fs::path> scenes_of_the_tree() {
+  std::vector<fs::path> scenes;
+  for (const char* const folder : {"stdlib-scenes", "tests/golden", "tests/diagnostics"}) {
+    const fs::path root = scenec::test::source_directory() / folder;
+    if (!fs::is_directory(root)) continue;
+    std::vector<fs::path> folders{root};
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
+      if (entry.is_directory()) folders.push_back(entry.path());
+    }
+    for (const fs::path& one : folders) {
+      const auto files = scenec::test::files_in(one, scene_extensions);
+      scenes.insert(scenes.end(), files.begin(), files.end());
+    }
+  }
+  return scenes;
+}
+
+struct Compiled {
+  std::string hash;
+  std::string dump;
+};
+std::optional<Compiled> compile(scenec::FileSystem& files, const std::string& path) {
+  scenec::SourceMap sources;
+  scenec::DiagnosticSink sink;
+  const scenec::frontend::CompileOptions options{
+      .dialect = {}, .params = {}, .method = {}, .library = true};
+  const auto scene = scenec::frontend::compile(path, options, files, sources, sink);
+  if (!scene) return std::nullopt;
+  return Compiled{scene->hash.hex(), scenec::ir::dump_text(*scene, {})};
+}
+
+// The disk with one more file in the working directory that exists only in memory.
+class WithOneMore final : public scenec::FileSystem {
+ public:
+  WithOneMore(std::string path, std::string text) : path_(path) {
+    added_.put(std::move(path), std::move(text));
+  }
+  scenec::Result<scenec::FileContent, scenec::FileError> read(const std::string& path,
+                                                              std::uint64_t limit) override {
+    return path == path_ ? added_.read(path, limit) : disk_.read(path, limit);
+  }
+  bool is_file(const std::string& path) override { return path == path_ || disk_.is_file(path); }
+
+ private:
+  std::string path_;
+  scenec::MemoryFileSystem added_;
+  scenec::RealFileSystem disk_;
+};
+
+TEST(Properties, TheTreeHoldsEveryByte) {
+  for (const fs::path& path : scenes_of_the_tree()) {
+    const std::string text = scenec::test::read_text(path);
+    scenec::SourceMap sources;
+    scenec::DiagnosticSink sink;
+    const scenec::FileId file = sources.add(path.string(), text);
+    const std::string_view kept = sources.text(file);
+    EXPECT_EQ(scenec::grammar::reassembled_text(scenec::grammar::parse_sdl(file, kept, sink)), text)
+        << path << " as sdl";
+    EXPECT_EQ(scenec::grammar::reassembled_text(scenec::grammar::parse_course(file, kept, sink)),
+              text)
+        << path << " as course";
+  }
+}
+
+TEST(Properties, TheDumpedIrCompilesToItself) {
+  int compiled = 0;
+  for (const fs::path& path : scenes_of_the_tree()) {
+    fs::current_path(path.parent_path());
+    scenec::RealFileSystem disk;
+    const auto first = compile(disk, path.filename().string());
+    if (!first) continue;
+    ++compiled;
+    WithOneMore files("dumped-again.sdl", first->dump);
+    const auto second = compile(files, "dumped-again.sdl");
+    ASSERT_TRUE(second) << path << "\n" << first->dump;
+    EXPECT_EQ(second->hash, first->hash) << path;
+    EXPECT_EQ(second->dump, first->dump) << path;
+  }
+  EXPECT_GT(compiled, 0);
+}
+
+}  // namespace
