@@ -1,0 +1,234 @@
+#include "grammar/tree_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/assert.hpp"
+#include "base/text.hpp"
+#include "grammar/scan.hpp"
+#include "grammar/text_checks.hpp"
+
+namespace scenec::grammar {
+
+namespace {
+
+// People read the first dozen; beyond this the text is not in this language at all.
+constexpr std::uint32_t most_reports = 200;
+
+TriviaKind trivia_kind(std::string_view comment) {
+  if (comment.starts_with("/*")) return TriviaKind::block_comment;
+  const bool documents = comment.starts_with("///") && !comment.starts_with("////");
+  return documents ? TriviaKind::doc_comment : TriviaKind::line_comment;
+}
+
+// The comments between two tokens, of either dialect (a course comment starts with `#` or `//`).
+void add_trivia(std::string_view text, std::uint32_t begin, std::uint32_t end, Dialect dialect,
+                std::vector<Trivia>& trivia) {
+  while (begin < end) {
+    const char c = text[begin];
+    if (c != '/' && c != '#') {
+      ++begin;
+      continue;
+    }
+    const std::uint32_t close = static_cast<std::uint32_t>(std::min<std::size_t>(scan::comment_end(text, begin), end));
+    const bool native = dialect == Dialect::sdl;
+    trivia.push_back({native ? trivia_kind(text.substr(begin, close - begin)) : TriviaKind::line_comment, begin, close});
+    begin = close;
+  }
+}
+
+}  // namespace
+
+void NodeStack::grow() { pieces_.push_back(std::make_unique_for_overwrite<SyntaxNode[]>(mask + 1)); }
+
+std::vector<SyntaxNode> NodeStack::release() {
+  std::vector<SyntaxNode> nodes;
+  nodes.reserve(size_);
+  for (std::unique_ptr<SyntaxNode[]>& piece : pieces_) {
+    const std::uint32_t count = std::min(mask + 1, size_ - static_cast<std::uint32_t>(nodes.size()));
+    nodes.insert(nodes.end(), piece.get(), piece.get() + count);
+    piece.reset();
+  }
+  pieces_.clear();
+  size_ = 0;
+  return nodes;
+}
+
+TreeBuilder::TreeBuilder(Dialect dialect, FileId file, std::string_view text, DiagnosticSink& sink,
+                         const ParseLimits& limits)
+    : dialect_(dialect), file_(file), text_(text), sink_(sink), limits_(limits) {}
+
+void TreeBuilder::node(SyntaxKind kind, std::uint32_t mark) {
+  if (mark == nodes_.size()) {
+    const std::uint32_t place = last_end();
+    nodes_.push({kind, place, place, 1});
+    return;
+  }
+  nodes_.push({kind, nodes_[mark].begin, nodes_.back().end, nodes_.size() - mark + 1});
+}
+
+void TreeBuilder::adopt(std::uint32_t mark) {
+  SyntaxNode& last = nodes_.back();
+  if (nodes_.size() - mark == last.next) return;
+  last.begin = nodes_[mark].begin;
+  last.next = nodes_.size() - mark;
+}
+
+void TreeBuilder::error_node(std::uint32_t begin, std::uint32_t end) {
+  if (begin == end) {
+    nodes_.push({SyntaxKind::error, last_end(), last_end(), 1});
+    return;
+  }
+  nodes_.push({SyntaxKind::error_text, begin, end, 1});
+  nodes_.push({SyntaxKind::error, begin, end, 2});
+}
+
+SyntaxNode TreeBuilder::last_token() {
+  for (std::uint32_t index = nodes_.size(); index > 0; --index) {
+    if (is_token(nodes_[index - 1].kind)) return nodes_[index - 1];
+  }
+  return {SyntaxKind::error_text, 0, 0, 0};
+}
+
+void TreeBuilder::restore(Depth depth) {
+  depth_ = depth.depth;
+  openers_.resize(depth.openers);
+}
+
+void TreeBuilder::report(Diagnostic diagnostic) {
+  if (reported_++ < most_reports) {
+    if (!muted_) sink_.report(std::move(diagnostic));
+    return;
+  }
+  if (muted_) throw Abandon{};
+  sink_.report(Diagnostic(DiagnosticKind::too_many_syntax_errors, diagnostic.span,
+                          fmt::format("more than {} syntax errors; the rest of the file is not read", most_reports)));
+  throw Abandon{};
+}
+
+void TreeBuilder::report(std::uint32_t found, Diagnostic diagnostic) {
+  if (found == last_found_) return;
+  last_found_ = found;
+  report(std::move(diagnostic));
+}
+
+void TreeBuilder::limit_exceeded(Diagnostic diagnostic) {
+  if (!muted_) sink_.report(std::move(diagnostic));
+  throw Abandon{};
+}
+
+void TreeBuilder::nesting_exceeded(std::uint32_t begin, std::uint32_t end) {
+  limit_exceeded(Diagnostic(DiagnosticKind::nesting_too_deep, span(begin, end),
+                            fmt::format("nesting deeper than {} levels", limits_.nesting))
+                     .hint("blocks, brackets, `else if` and chains such as `a.b.c` count one level each"));
+}
+
+void TreeBuilder::check_token_limit(SyntaxKind kind, std::uint32_t begin, std::uint32_t end) {
+  const bool is_string = kind == SyntaxKind::string;
+  const std::uint32_t limit = is_string ? limits_.string : limits_.token;
+  if (end - begin <= limit) return;
+  limit_exceeded(Diagnostic(is_string ? DiagnosticKind::string_literal_too_long : DiagnosticKind::token_too_long,
+                            span(begin, end),
+                            fmt::format("{} of {} bytes; the limit is {} bytes",
+                                        is_string ? "a string" : "a word or number", end - begin, limit)));
+}
+
+std::uint32_t TreeBuilder::comment(std::uint32_t begin) {
+  const std::size_t end = scan::comment_end(text_, begin);
+  if (end != std::string_view::npos) return static_cast<std::uint32_t>(end);
+  const std::uint32_t file_end = static_cast<std::uint32_t>(text_.size());
+  report(file_end, Diagnostic(DiagnosticKind::comment_unclosed, span(begin, begin + 2),
+                              "this comment is never closed: expected `*/` before the end of the file"));
+  return file_end;
+}
+
+void TreeBuilder::abandon() {
+  std::uint32_t begin = last_end();
+  begin = dialect_ == Dialect::sdl ? static_cast<std::uint32_t>(scan::skip_trivia(text_, begin))
+                                   : static_cast<std::uint32_t>(skip_course_trivia(text_, begin));
+  const std::uint32_t end = static_cast<std::uint32_t>(text_.size());
+  if (begin < end) nodes_.push({SyntaxKind::error_text, begin, end, 1});
+  node(SyntaxKind::error, std::min(outermost_, nodes_.size()));
+}
+
+void TreeBuilder::admit() {
+  constexpr std::uint64_t most = 0xFFFFFFF0u;  // offsets are 32 bits
+  const std::uint64_t limit = std::min<std::uint64_t>(limits_.file, most);
+  const std::size_t size = text_.size();
+  if (size <= limit) return check_characters();
+  if (size > most) text_ = {};
+  limit_exceeded(Diagnostic(DiagnosticKind::file_too_large, span(0, 0),
+                            fmt::format("the file has {} bytes; the limit is {} bytes", size, limit)));
+}
+
+void TreeBuilder::check_characters() {
+  const CharacterFaults faults = character_faults(text_, dialect_);
+  const auto at_byte = [&](std::size_t begin, std::size_t size) {
+    return span(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin + size));
+  };
+  for (std::size_t bidi : faults.bidi_controls) {
+    report(Diagnostic(DiagnosticKind::bidi_control, at_byte(bidi, static_cast<unsigned char>(text_[bidi]) == 0xD8 ? 2 : 3),
+                      "a character that changes the direction of writing: the text is not what it looks like")
+               .hint("remove it, or write it in a string as an escape such as `\\u{202e}`"));
+  }
+  if (faults.first_control == CharacterFaults::none && faults.first_invalid == CharacterFaults::none) return;
+  if (faults.first_control < faults.first_invalid) {
+    const unsigned code = static_cast<unsigned char>(text_[faults.first_control]);
+    report(Diagnostic(DiagnosticKind::control_character, at_byte(faults.first_control, 1),
+                      fmt::format("control character U+{:04X} in the text", code)));
+  } else {
+    const unsigned byte = static_cast<unsigned char>(text_[faults.first_invalid]);
+    report(Diagnostic(DiagnosticKind::text_not_utf8, at_byte(faults.first_invalid, 1),
+                      fmt::format("byte 0x{:02X} is not part of valid UTF-8", byte))
+               .hint("save the file as UTF-8"));
+  }
+  muted_ = true;
+}
+
+// Post-order to pre-order, in place: a node with `size` nodes in its subtree, `depth` ancestors and
+// index i goes to i - (size - 1) + depth.
+void TreeBuilder::order_nodes() {
+  std::vector<std::uint32_t> targets(nodes_.size());
+  std::vector<std::uint32_t> first_of_open;  // first index of the subtrees round the current node
+  for (std::uint32_t index = nodes_.size(); index-- > 0;) {
+    SyntaxNode& one = nodes_[index];
+    while (!first_of_open.empty() && index < first_of_open.back()) first_of_open.pop_back();
+    const std::uint32_t first = index + 1 - one.next;
+    targets[index] = first + static_cast<std::uint32_t>(first_of_open.size());
+    if (one.next > 1) first_of_open.push_back(first);
+    one.next += targets[index];
+  }
+  for (std::uint32_t index = 0; index < nodes_.size(); ++index) {
+    SyntaxNode moving = nodes_[index];
+    while (targets[index] != index) {
+      const std::uint32_t target = targets[index];
+      std::swap(moving, nodes_[target]);
+      std::swap(targets[index], targets[target]);
+    }
+    nodes_[index] = moving;
+  }
+}
+
+// Whatever is not in a token is blank or comment.
+std::vector<Trivia> TreeBuilder::comments(const std::vector<SyntaxNode>& nodes) const {
+  std::vector<Trivia> trivia;
+  std::uint32_t place = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  for (const SyntaxNode& one : nodes) {
+    if (!is_token(one.kind)) continue;
+    if (one.begin > place + 1) add_trivia(text_, place, one.begin, dialect_, trivia);
+    place = one.end;
+  }
+  add_trivia(text_, place, static_cast<std::uint32_t>(text_.size()), dialect_, trivia);
+  return trivia;
+}
+
+SyntaxTree TreeBuilder::finish(SyntaxKind root) {
+  SCENEC_ASSERT(nodes_.size() > 0 && nodes_.back().kind == root && nodes_.back().next == nodes_.size());
+  order_nodes();
+  std::vector<SyntaxNode> nodes = nodes_.release();
+  std::vector<Trivia> trivia = comments(nodes);
+  return SyntaxTree(file_, text_, std::move(nodes), std::move(trivia));
+}
+
+}  // namespace scenec::grammar
