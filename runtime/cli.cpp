@@ -158,11 +158,12 @@ CommandLine parse_words(Verb verb, std::vector<std::string> words) {
           app.add_flag(names, gathered.flag)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     }
   }
+  const std::string last_word = words.empty() ? "" : words.back();
   std::reverse(words.begin(), words.end());  // CLI11 takes them from the back
   try {
     app.parse(words);
   } catch (const CLI::ArgumentMismatch&) {
-    return UsageError{"the last option needs a value"};
+    return UsageError{fmt::format("`{}` needs a value", printable(last_word))};
   } catch (const CLI::ParseError& error) {
     return UsageError{printable(error.what(), 200)};
   }

@@ -11,6 +11,7 @@
 #include "grammar/parse.hpp"
 #include "ir/dump.hpp"
 #include "tests/golden/runner.hpp"
+#include "tests/support/overlay_file_system.hpp"
 #include "tests/support/paths.hpp"
 
 namespace {
@@ -50,24 +51,6 @@ std::optional<Compiled> compile(scenec::FileSystem& files, const std::string& pa
   return Compiled{scene->hash.hex(), scenec::ir::dump_text(*scene, {})};
 }
 
-// The disk with one more file in the working directory that exists only in memory.
-class WithOneMore final : public scenec::FileSystem {
- public:
-  WithOneMore(std::string path, std::string text) : path_(path) {
-    added_.put(std::move(path), std::move(text));
-  }
-  scenec::Result<scenec::FileContent, scenec::FileError> read(const std::string& path,
-                                                              std::uint64_t limit) override {
-    return path == path_ ? added_.read(path, limit) : disk_.read(path, limit);
-  }
-  bool is_file(const std::string& path) override { return path == path_ || disk_.is_file(path); }
-
- private:
-  std::string path_;
-  scenec::MemoryFileSystem added_;
-  scenec::RealFileSystem disk_;
-};
-
 TEST(Properties, TheTreeHoldsEveryByte) {
   for (const fs::path& path : scenes_of_the_tree()) {
     const std::string text = scenec::test::read_text(path);
@@ -91,7 +74,7 @@ TEST(Properties, TheDumpedIrCompilesToItself) {
     const auto first = compile(disk, path.filename().string());
     if (!first) continue;
     ++compiled;
-    WithOneMore files("dumped-again.sdl", first->dump);
+    scenec::test::OverlayFileSystem files("dumped-again.sdl", first->dump);
     const auto second = compile(files, "dumped-again.sdl");
     ASSERT_TRUE(second) << path << "\n" << first->dump;
     EXPECT_EQ(second->hash, first->hash) << path;

@@ -89,7 +89,7 @@ TEST(Cli, MissingAndSurplusOperandsAreErrors) {
   EXPECT_EQ(usage_message({"a.sdl", "b.sdl"}),
             "`render` takes one scene at a time; `b.sdl` is a second one");
   EXPECT_EQ(usage_message({"check", "-"}), "a scene is read from a file, not from standard input");
-  EXPECT_EQ(usage_message({"a.sdl", "-o"}), "`--output` needs a value");
+  EXPECT_EQ(usage_message({"a.sdl", "-o"}), "`-o` needs a value");
   EXPECT_EQ(usage_message({"a.sdl", "-o", "--size", "4x4"}),
             "`--output` needs a value before `--size`");
 }
