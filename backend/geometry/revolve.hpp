@@ -1,15 +1,16 @@
 // The surface swept by a profile curve (radius, height) turning about an axis.
 //
 // Domain:     finite control points, Bezier segments of degree 1..15; any finite ray.
-// Method:     on the surface r(s)^2 = |x(t)|^2 and h(s) = height(t), an equation in two unknowns
-//             (t along the ray, s along the curve): s is subdivided with Bernstein enclosures of r
-//             and h against the ray's reach in the shell between two cylinders and two planes; what
-//             is monotone is polished by Newton with bisection as safeguard. Nothing divides by the
-//             ray's slope along the axis, so level rays are like any other.
-// Error:      t within 1e-10 relative off tangency.
+// Method:     on the surface rho(t)^2 = r(s)^2 and height(t) = h(s), in two unknowns: t along the
+//             ray, s along the curve. s is halved (de Casteljau); a piece is dropped when the ray
+//             misses the shell of its hull, and solved when one of two eliminations of t is proven
+//             monotone on it: t from the radius (a branch before and one after the closest approach
+//             to the axis, no division by the slope along the axis) or t from the height. The root
+//             is found by Newton in a bracket and polished by two steps in (t, s).
+// Error:      roots satisfy both equations to gamma(64) of the profile's size.
 // Degenerate: tangent rays: hit or miss by rounding; a ray lying in the surface for a whole interval
-//             reports the interval's nearest end it finds, after at most 4096 nodes; negative radii
-//             count as their absolute value; a pole's normal is that of its limit tangent.
+//             reports a point near the interval's nearest end; at most 4096 pieces a segment; negative
+//             radii count as their absolute value; a pole's normal is that of its limit tangent.
 // Proof:      tests/unit/backend/geometry/revolve_test.cpp (R01-R06, R08, R09, R16, R17).
 #pragma once
 

@@ -44,9 +44,10 @@ struct Bounds3 {
     if (p.y > max.y) max.y = p.y;
     if (p.z > max.z) max.z = p.z;
   }
+  // An empty box changes nothing.
   void grow(const Bounds3& b) {
-    grow(b.min);
-    grow(b.max);
+    min = {b.min.x < min.x ? b.min.x : min.x, b.min.y < min.y ? b.min.y : min.y, b.min.z < min.z ? b.min.z : min.z};
+    max = {b.max.x > max.x ? b.max.x : max.x, b.max.y > max.y ? b.max.y : max.y, b.max.z > max.z ? b.max.z : max.z};
   }
   [[nodiscard]] bool contains(const Point3& p) const {
     return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y && p.z >= min.z && p.z <= max.z;

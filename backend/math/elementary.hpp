@@ -7,7 +7,7 @@
 // Method:     arguments reduced and leading terms summed in double-double (Dekker 1971), short
 //             Taylor tails; pi/2 as three doubles (Cody and Waite 1980); log through atanh; pow as
 //             exp(y log x) with the logarithm in double-double.
-// Error:      below 0.8 ulp each.
+// Error:      below 0.8 ulp each, tan below 1 ulp.
 // Degenerate: as in C Annex F: pow(x, 0) = 1 also for NaN, pow(0, y < 0) = inf, log(0) = -inf,
 //             log(x < 0) = NaN, acos and asin outside [-1, 1] NaN, signed zeros kept.
 // Proof:      tests/unit/backend/math/elementary_test.cpp, against long double.
