@@ -10,14 +10,17 @@
 
 namespace scenec::test {
 
-[[nodiscard]] inline std::filesystem::path source_directory() { return SCENEC_SOURCE_DIR; }
+[[nodiscard]] inline std::filesystem::path source_directory() {
+  return SCENEC_SOURCE_DIR;
+}
 
 // The folder that holds `course/`: $SCENEC_CORPUS, else `../shared/corpus` beside the project.
 [[nodiscard]] inline std::optional<std::filesystem::path> find_corpus() {
   const char* const named = std::getenv("SCENEC_CORPUS");
   const bool is_named = named != nullptr && *named != '\0';
-  const std::filesystem::path path =
-      is_named ? std::filesystem::path(named) : source_directory().parent_path() / "shared" / "corpus";
+  const std::filesystem::path path = is_named
+                                         ? std::filesystem::path(named)
+                                         : source_directory().parent_path() / "shared" / "corpus";
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) return std::nullopt;
   return path;
