@@ -14,19 +14,27 @@ inline void report_course_stray(TreeBuilder& builder, std::uint32_t begin, std::
   builder.error_node(begin, end);
 }
 
-// Zero width: the block or bracket ends where its parent closes, or with the file.
-inline void report_course_unclosed(TreeBuilder& builder, std::uint32_t offset) {
+// Zero width: the block or bracket ends where its parent closes, or with the file. A `}` that no
+// parent waits for was meant for the bracket. Returns where reading goes on.
+[[nodiscard]] inline std::uint32_t repair_course_closer(TreeBuilder& builder, std::uint32_t offset) {
   const std::string_view text = builder.text();
   const std::uint32_t opener = builder.openers().back();
   const bool at_end = offset >= text.size();
+  const std::string found = at_end ? "the end of the file" : std::string("`") + text[offset] + "`";
   const std::string closer = text[opener] == '{' ? "`}`" : "`]`";
-  Diagnostic diagnostic(DiagnosticKind::bracket_unclosed, builder.span(opener, opener + 1),
-                        std::string("`") + text[opener] + "` is never closed: expected " + closer + " before " +
-                            (at_end ? std::string("the end of the file") : std::string("`") + text[offset] + "`"));
-  diagnostic.notes.push_back({at_end ? "the file ends here" : "its parent ends here",
-                              builder.span(offset, at_end ? offset : offset + 1)});
-  builder.report(offset, std::move(diagnostic));
+  const Span where = builder.span(offset, at_end ? offset : offset + 1);
   builder.close();
+  if (!at_end && builder.openers().empty()) {
+    builder.report(offset, Diagnostic(DiagnosticKind::closer_mismatched, where, "expected " + closer + ", found " + found)
+                               .label(builder.span(opener, opener + 1), "opened here")
+                               .fix(where, "]"));
+    builder.error_node(offset, offset + 1);
+    return offset + 1;
+  }
+  builder.report(offset, Diagnostic(DiagnosticKind::bracket_unclosed, builder.span(opener, opener + 1),
+                                    std::string("`") + text[opener] + "` is never closed: expected " + closer + " before " + found)
+                             .note(at_end ? "the file ends here" : "the block round it ends here", where));
+  return offset;
 }
 
 template <class Rule>
@@ -47,10 +55,12 @@ struct build<course::stray_bracket> : course_stray<course::stray_bracket> {};
 
 template <class Closer>
 struct course_unclosed {
-  template <class Same, peg::apply_mode, peg::rewind_mode, template <class...> class, template <class...> class,
-            class Input, class... States>
-  [[nodiscard]] static bool match(Input& in, TreeBuilder& builder, States&&...) {
-    report_course_unclosed(builder, builder.offset_of(in.current()));
+  template <class Same, peg::apply_mode A, peg::rewind_mode M, template <class...> class Action,
+            template <class...> class Control, class Input, class... States>
+  [[nodiscard]] static bool match(Input& in, TreeBuilder& builder, States&&... states) {
+    if (!peg::match<missing<Closer>, A, M, Action, Control>(in, builder, states...)) return false;
+    const std::uint32_t offset = builder.offset_of(in.current());
+    in.bump(repair_course_closer(builder, offset) - offset);
     return true;
   }
 };

@@ -124,9 +124,15 @@ std::uint32_t missing_semicolon(const Place& place) {
   give_up(place, std::move(diagnostic));
 }
 
-bool line_has_semicolon(std::string_view text, std::uint32_t offset) {
-  const std::size_t line_end = text.find_first_of("\r\n", offset);
-  return text.substr(offset, line_end == std::string_view::npos ? line_end : line_end - offset).find(';') != std::string_view::npos;
+// The rest of the line ends a statement without closing a `(` that was opened before it.
+bool line_ends_statement(std::string_view text, std::uint32_t offset) {
+  std::uint32_t depth = 0;
+  for (std::size_t place = offset; place < text.size() && !scan::is_line_end(text[place]); place = scan::token_end(text, place)) {
+    if (text[place] == ';') return true;
+    if (text[place] == '(') ++depth;
+    if (text[place] == ')' && depth-- == 0) return false;
+  }
+  return false;
 }
 
 // The bracket is still open although its statement is over.
@@ -134,7 +140,7 @@ bool statement_is_over(const Place& place, char opener) {
   if (place.at_end() || place.is_any_of(";{}")) return true;
   if (!place.begins_line()) return false;
   const ItemStart start = scan::item_start(place.text, place.offset);
-  if (start == ItemStart::weak) return opener == '[' || line_has_semicolon(place.text, place.offset);
+  if (start == ItemStart::weak) return opener == '[' || line_ends_statement(place.text, place.offset);
   return start == ItemStart::strong;
 }
 
@@ -153,7 +159,7 @@ void report_unclosed(const Place& place) {
   builder.report(place.offset, std::move(diagnostic));
 }
 
-std::uint32_t missing_closer(const Place& place, std::string_view what) {
+std::uint32_t missing_closer(const Place& place, std::string_view what, bool of_list) {
   TreeBuilder& builder = place.builder;
   const std::vector<std::uint32_t>& openers = builder.openers();
   const char opener = place.text[openers.back()];
@@ -181,8 +187,9 @@ std::uint32_t missing_closer(const Place& place, std::string_view what) {
     builder.close();
     return place.offset;
   }
-  Diagnostic diagnostic = unexpected(place, fmt::format("`,` or {}", what));
-  if (place.begins_operand()) diagnostic.fixits.push_back({builder.span(place.before, place.before), ","});
+  Diagnostic diagnostic = unexpected(place, of_list ? fmt::format("`,` or {}", what) : std::string(what));
+  if (!of_list && place.is_any_of(",")) diagnostic.hints.push_back("a list is written in brackets: `[1, 2]`");
+  if (of_list && place.begins_operand()) diagnostic.fixits.push_back({builder.span(place.before, place.before), ","});
   give_up(place, std::move(diagnostic));
 }
 
@@ -318,7 +325,7 @@ std::uint32_t missing_assign(const Place& place, std::string_view what) {
   }
   if (scan::is(behind.next(), scan::name_first)) {
     const Place third(builder, skip(builder, behind.end));
-    if (!third.is_any_of("={(")) builder.owe_closer();
+    if (third.is_any_of("=")) builder.owe_closer();  // `sphere radius = 1; }`
   }
   give_up(behind, "`=`, `{` or `(`");
 }
@@ -336,7 +343,8 @@ std::uint32_t repair_missing(TreeBuilder& builder, const Expectation& expected, 
   switch (expected.repair) {
     case Repair::give_up: give_up(place, expected.what);
     case Repair::semicolon: return missing_semicolon(place);
-    case Repair::closer: return missing_closer(place, expected.what);
+    case Repair::closer: return missing_closer(place, expected.what, false);
+    case Repair::list_closer: return missing_closer(place, expected.what, true);
     case Repair::value: return missing_value(place, expected.what);
     case Repair::name: return missing_name(place, expected.what);
     case Repair::type: return missing_type(place, expected.what);

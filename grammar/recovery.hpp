@@ -13,6 +13,7 @@ enum class Repair : std::uint8_t {
   give_up,     // report and leave the item
   semicolon,   // zero width when an item, `}` or the end follows
   closer,      // zero width when the statement ends; a wrong closer is taken for it
+  list_closer, // the same; a `,` could also come
   value,       // an empty error node when nothing stands where a value belongs
   name,        // a reserved word is taken for it
   type,        // an empty error node

@@ -16,12 +16,15 @@ struct assign_text : peg::seq<peg::one<'='>, peg::not_at<peg::one<'='>>>, makes_
 struct assign : peg::seq<assign_text, trivia> {};
 struct colon : lex::mark<':'> {};
 struct kind_colon : lex::mark<':'> {};
+struct body_colon : lex::mark<':'> {};  // of a comprehension
 struct open_brace : lex::opener<'{'> {};
 struct close_brace : lex::closer<'}'> {};
 struct open_bracket : lex::opener<'['> {};
 struct close_bracket : lex::closer<']'> {};
 struct open_paren : lex::opener<'('> {};
 struct close_paren : lex::closer<')'> {};
+struct close_list : lex::closer<']'> {};
+struct close_arguments : lex::closer<')'> {};
 struct dot_text : peg::seq<peg::one<'.'>, peg::not_at<peg::one<'.'>>>, makes_token<Kind::punctuation> {};
 struct dot : peg::seq<dot_text, trivia> {};
 struct range_text : peg::seq<peg::two<'.'>, peg::opt<peg::one<'<'>>>, makes_token<Kind::punctuation> {};
@@ -65,17 +68,17 @@ struct loop_head : peg::seq<expect<declared_name>, peg::opt<comma, expect<declar
                             expect<expression>, peg::opt<range_tail>> {};
 
 struct comprehension : peg::seq<peg::at<peg::one<'['>, trivia, peg::keyword<'f', 'o', 'r'>>, open_bracket, word_for,
-                                loop_head, expect<colon>, expect<expression>, expect<close_bracket>>,
+                                loop_head, expect<body_colon>, expect<expression>, expect<close_bracket>>,
                        makes_node<Kind::comprehension> {};
 struct list_elements : peg::seq<expect<expression>, peg::star<list_separator, expect<expression>>, peg::opt<comma>> {};
-struct list : peg::seq<open_bracket, peg::opt<peg::not_at<peg::one<']'>>, list_elements>, expect<close_bracket>>,
+struct list : peg::seq<open_bracket, peg::opt<peg::not_at<peg::one<']'>>, list_elements>, expect<close_list>>,
               makes_node<Kind::list> {};
 
 struct argument_name : peg::seq<peg::at<peg::identifier, trivia, peg::one<'='>, peg::not_at<peg::one<'='>>>,
                                 lex::any_name, assign> {};
 struct argument : peg::seq<peg::opt<argument_name>, expect<expression>>, makes_node<Kind::argument> {};
 struct argument_list : peg::seq<argument, peg::star<list_separator, argument>, peg::opt<comma>> {};
-struct arguments : peg::seq<open_paren, peg::opt<peg::not_at<peg::one<')'>>, argument_list>, expect<close_paren>>,
+struct arguments : peg::seq<open_paren, peg::opt<peg::not_at<peg::one<')'>>, argument_list>, expect<close_arguments>>,
                    makes_node<Kind::arguments> {};
 
 // Malformed literals that deserve their own words.
@@ -130,7 +133,7 @@ struct range_limit : peg::opt<word_in, expect<parameter_range>> {};
 struct parameter : peg::seq<expect<declared_name>, expect<colon>, expect<type>, peg::opt<assign, expect<expression>>, range_limit>,
                    makes_node<Kind::parameter> {};
 struct parameter_list : peg::seq<parameter, peg::star<list_separator, parameter>, peg::opt<comma>> {};
-struct parameters : peg::seq<open_paren, peg::opt<peg::not_at<peg::one<')'>>, parameter_list>, expect<close_paren>>,
+struct parameters : peg::seq<open_paren, peg::opt<peg::not_at<peg::one<')'>>, parameter_list>, expect<close_arguments>>,
                     makes_node<Kind::parameters> {};
 struct annotation : peg::seq<lex::mark<'@'>, expect<declared_name>, peg::opt<arguments>>, makes_node<Kind::annotation> {};
 

@@ -65,9 +65,10 @@ struct build<Rule> {
 
 template <class Rule>
 struct build<missing<Rule>> {
-  template <class Same, peg::apply_mode A, peg::rewind_mode, template <class...> class, template <class...> class,
-            class Input, class... States>
-  [[nodiscard]] static bool match(Input& in, TreeBuilder& builder, States&&...) {
+  template <class Same, peg::apply_mode A, peg::rewind_mode M, template <class...> class Action,
+            template <class...> class Control, class Input, class... States>
+  [[nodiscard]] static bool match(Input& in, TreeBuilder& builder, States&&... states) {
+    if (!peg::match<missing<Rule>, A, M, Action, Control>(in, builder, states...)) return false;
     static_assert(A == peg::apply_mode::action, "lookahead must not repair");
     const std::uint32_t offset = builder.offset_of(in.current());
     in.bump(repair_missing(builder, expectation<Rule>::value, offset) - offset);

@@ -57,7 +57,8 @@ std::vector<SyntaxNode> NodeStack::release() {
 
 TreeBuilder::TreeBuilder(Dialect dialect, FileId file, std::string_view text, DiagnosticSink& sink,
                          const ParseLimits& limits)
-    : dialect_(dialect), file_(file), text_(text), sink_(sink), limits_(limits) {}
+    : dialect_(dialect), file_(file), text_(text), sink_(sink), limits_(limits),
+      shortest_limit_(std::min(limits.token, limits.string)) {}
 
 void TreeBuilder::node(SyntaxKind kind, std::uint32_t mark) {
   if (mark == nodes_.size()) {
@@ -128,7 +129,7 @@ void TreeBuilder::check_token_limit(SyntaxKind kind, std::uint32_t begin, std::u
   const bool is_string = kind == SyntaxKind::string;
   const std::uint32_t limit = is_string ? limits_.string : limits_.token;
   if (end - begin <= limit) return;
-  limit_exceeded(Diagnostic(is_string ? DiagnosticKind::string_literal_too_long : DiagnosticKind::token_too_long,
+  limit_exceeded(Diagnostic(is_string ? DiagnosticKind::string_literal_too_long : DiagnosticKind::text_too_long,
                             span(begin, end),
                             fmt::format("{} of {} bytes; the limit is {} bytes",
                                         is_string ? "a string" : "a word or number", end - begin, limit)));
@@ -158,7 +159,7 @@ void TreeBuilder::admit() {
   const std::size_t size = text_.size();
   if (size <= limit) return check_characters();
   if (size > most) text_ = {};
-  limit_exceeded(Diagnostic(DiagnosticKind::file_too_large, span(0, 0),
+  limit_exceeded(Diagnostic(DiagnosticKind::text_too_long, span(0, 0),
                             fmt::format("the file has {} bytes; the limit is {} bytes", size, limit)));
 }
 

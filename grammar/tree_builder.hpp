@@ -61,7 +61,7 @@ class TreeBuilder {
   [[nodiscard]] std::uint32_t mark() const { return nodes_.size(); }
   [[nodiscard]] std::uint32_t mark_of_last() { return nodes_.size() - nodes_.back().next; }
   void token(SyntaxKind kind, std::uint32_t begin, std::uint32_t end) {
-    if (end - begin > limits_.token) check_token_limit(kind, begin, end);
+    if (end - begin > shortest_limit_) check_token_limit(kind, begin, end);
     nodes_.push({kind, begin, end, 1});
   }
   void node(SyntaxKind kind, std::uint32_t mark);
@@ -135,6 +135,7 @@ class TreeBuilder {
   std::string_view text_;
   DiagnosticSink& sink_;
   ParseLimits limits_;
+  std::uint32_t shortest_limit_;
   NodeStack nodes_;
   std::vector<std::uint32_t> openers_;
   std::uint32_t depth_ = 0;
