@@ -1,0 +1,37 @@
+// `numX n`: the count a block states and the count that was found.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "frontend/course/reader.hpp"
+
+namespace scenec::frontend::course {
+
+struct Count {
+  std::optional<Number> stated;
+  std::size_t found = 0;
+
+  void state(const Entry& entry) { stated = entry.numbers.front(); }
+  // `what` in the plural. A block without its count is an error unless a count with wrong values
+  // was reported.
+  void check(Context& context, std::string_view word, std::string_view what, const BlockReader& reader,
+             Span block_word = {}) const {
+    if (!stated) {
+      if (!reader.was_tried(Role::count) && block_word.valid()) {
+        context.error(DiagnosticKind::course_missing_word, block_word, fmt::format("`{}` is missing", word));
+      }
+      return;
+    }
+    if (stated->value == static_cast<double>(found)) return;
+    context.sink.report(Diagnostic(DiagnosticKind::course_wrong_count, stated->span,
+                                   fmt::format("`{}` is {}, but {} {} {}", word, short_number_text(stated->value), found,
+                                               what, found == 1 ? "follows" : "follow"))
+                            .fix(stated->span, std::to_string(found)));
+  }
+};
+
+}  // namespace scenec::frontend::course
