@@ -21,12 +21,12 @@ struct Count {
   void check(Context& context, std::string_view word, std::string_view what, const BlockReader& reader,
              Span block_word = {}) const {
     if (!stated) {
-      if (!reader.was_tried(Role::count) && block_word.valid()) {
+      if (!reader.had_mistakes() && block_word.valid()) {
         context.error(DiagnosticKind::course_missing_word, block_word, fmt::format("`{}` is missing", word));
       }
       return;
     }
-    if (stated->value == static_cast<double>(found)) return;
+    if (stated->value == static_cast<double>(found) || reader.had_unknown()) return;
     context.sink.report(Diagnostic(DiagnosticKind::course_wrong_count, stated->span,
                                    fmt::format("`{}` is {}, but {} {} {}", word, short_number_text(stated->value), found,
                                                what, found == 1 ? "follows" : "follow"))

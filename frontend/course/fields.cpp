@@ -43,7 +43,7 @@ Fields::Fields(Context& context, const Entry& block, Place place, std::initializ
     complete_ = false;
     if (!reader.was_tried(role)) missing.push_back(word_for(place, role));
   }
-  if (!missing.empty()) {
+  if (!missing.empty() && !reader.had_unknown()) {
     context.error(DiagnosticKind::course_missing_word, block.word_span,
                   fmt::format("`{}` lacks {}", block.name.empty() ? block.word->text : block.name, quoted_list(missing)));
   }

@@ -91,6 +91,7 @@ void Materials::read_one(const Entry& block) {
     switch (entry->role()) {
       case Role::texture: material.texture = read_texture(*entry); continue;
       case Role::normal_map: material.normal_map = read_texture(*entry); continue;
+      case Role::bump: (void)read_texture(*entry); continue;  // unused, yet it must be there
       case Role::noise: read_noise(material, entry->block); continue;
       case Role::lobe:
         if (!entry->name.empty() && !find_lobe(entry->name)) {

@@ -126,8 +126,7 @@ void Objects::write_transform(const Entry& entry, const Target& target) {
     (member->role() == Role::matrix ? matrices : reversed).push_back(operation_of(*member));
   }
   if (objects != 1) {
-    const bool wrong_object = objects == 0 && reader.was_tried(Role::group);
-    if (!wrong_object) {
+    if (objects != 0 || !reader.had_mistakes()) {
       context_.error(DiagnosticKind::course_one_object, entry.word_span,
                      fmt::format("`Transform` holds {} objects; it needs exactly one", objects));
     }

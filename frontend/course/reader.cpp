@@ -25,6 +25,16 @@ bool is_element(NodeRef node) {
   }
 }
 
+// Whether `word` is surely a slip for `name`: they differ in one place of at most two letters.
+bool is_slip(std::string_view word, std::string_view name) {
+  const std::size_t shorter = std::min(word.size(), name.size());
+  std::size_t front = 0;
+  while (front < shorter && word[front] == name[front]) ++front;
+  std::size_t back = 0;
+  while (back < shorter - front && word[word.size() - 1 - back] == name[name.size() - 1 - back]) ++back;
+  return front + back + 2 >= std::max(word.size(), name.size());
+}
+
 std::string found_text(const Entry& entry) {
   if (!entry.points.empty()) return "points in brackets";
   if (!entry.numbers.empty()) {
@@ -118,10 +128,8 @@ std::optional<Entry> BlockReader::read_entry() {
   entry.word_span = node.span();
   entry.span = node.span();
   entry.usable = read_values(entry);
-  if (at_ > 0) {
-    const NodeRef last = elements_[at_ - 1];
-    if (!last.is(SyntaxKind::course_block)) entry.span = join(entry.span, last.span());
-  }
+  const NodeRef last = elements_[at_ - 1];
+  if (!last.is(SyntaxKind::course_block)) entry.span = join(entry.span, last.span());
   if (entry.usable) {
     note_use(entry);
   } else {
@@ -135,6 +143,13 @@ const Word* BlockReader::identify(NodeRef node) {
   if (const Word* const word = find_word(place_, text)) return word;
   const std::vector<std::string_view> legal = words_of(place_);
   const std::optional<std::string_view> nearest = nearest_name(text, legal);
+  const bool slip = nearest && is_slip(text, *nearest);
+  // A slip is put right where it stands; of a word without a reading one message is enough.
+  const std::string key = fmt::format("{} in {}", text, name_of(place_));
+  if (!slip) {
+    had_unknown_ = true;
+    if (!context_.warned.emplace(DiagnosticKind::course_unknown_word, key).second) return nullptr;
+  }
   Diagnostic diagnostic(DiagnosticKind::course_unknown_word, node.span(),
                         fmt::format("`{}` has no reading in {}", printable(text), name_of(place_)));
   if (nearest) {
@@ -143,7 +158,7 @@ const Word* BlockReader::identify(NodeRef node) {
   }
   diagnostic.notes.push_back({fmt::format("known here: {}", quoted_list(legal)), {}});
   context_.sink.report(std::move(diagnostic));
-  return nearest ? find_word(place_, *nearest) : nullptr;
+  return slip ? find_word(place_, *nearest) : nullptr;
 }
 
 // What follows a word nobody knows: numbers, brackets and a block; or one word that is no key.

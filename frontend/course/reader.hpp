@@ -1,6 +1,6 @@
 // Reads the words of one block of the generic course tree by the table: each with the values its
-// row allows. Words without a reading, wrong values and stray values are reported here, once each;
-// a misspelt word is read as the nearest one, so that it causes no second message.
+// row allows. Words without a reading, wrong values and stray values are reported here; a misspelt
+// word is read as the one it stands for, so that it causes no second message.
 #pragma once
 
 #include <optional>
@@ -43,7 +43,9 @@ class BlockReader {
   [[nodiscard]] std::optional<Entry> next();
   // The roles of words whose values were wrong: they are not missing.
   [[nodiscard]] bool was_tried(Role role) const;
-  [[nodiscard]] bool had_mistakes() const { return !tried_.empty(); }
+  // A word had no reading or wrong values: what seems to be missing may be what it meant.
+  [[nodiscard]] bool had_mistakes() const { return had_unknown_ || !tried_.empty(); }
+  [[nodiscard]] bool had_unknown() const { return had_unknown_; }
 
  private:
   [[nodiscard]] bool at(grammar::SyntaxKind kind) const;
@@ -66,6 +68,7 @@ class BlockReader {
   std::vector<grammar::NodeRef> elements_;
   std::size_t at_ = 0;
   std::vector<Role> tried_;
+  bool had_unknown_ = false;
 };
 
 // Only the numbers in a node, with brackets looked through.

@@ -125,8 +125,7 @@ class Translator {
       }
       blocks_.insert_or_assign(role, std::move(*entry));
     }
-    tried_camera_ = reader.was_tried(Role::camera) || reader.was_tried(Role::realistic_camera);
-    tried_group_ = reader.was_tried(Role::group);
+    had_mistakes_ = reader.had_mistakes();
   }
 
   [[nodiscard]] const Entry* find(Role role) const {
@@ -148,20 +147,21 @@ class Translator {
     if (const Entry* const disks = find(Role::disk_lights)) lights_.read(*disks, Place::disk_lights);
     if (group != nullptr) {
       objects_.write_scene(*group, objects_text_);
-    } else if (!tried_group_) {
+    } else {
       missing_block("Group");
     }
     if (materials != nullptr && !in_time) materials_.read(*materials);
   }
 
   void missing_block(std::string_view word) {
+    if (had_mistakes_) return;
     context_.error(DiagnosticKind::course_missing_block, {tree_.file(), 0, 0}, fmt::format("the scene has no `{}`", word));
   }
 
   void read_camera_block() {
     if (const Entry* const block = find(Role::camera)) {
       camera_ = read_camera(context_, *block);
-    } else if (!tried_camera_) {
+    } else {
       missing_block("PerspectiveCamera");
     }
   }
@@ -225,8 +225,7 @@ class Translator {
   Objects objects_;
   Lights lights_;
   std::map<Role, Entry> blocks_;
-  bool tried_camera_ = false;
-  bool tried_group_ = false;
+  bool had_mistakes_ = false;  // at the top level: a block that seems missing may be misspelt
   std::optional<CameraTexts> camera_;
   Settings settings_;
   Text background_;
