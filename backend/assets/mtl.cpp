@@ -54,7 +54,10 @@ class MtlReader {
     std::string_view line;
     while (scanner_.next(line)) {
       WordCursor cursor(line);
-      if (!cursor.at_end() && !statement(cursor)) return Failure{std::move(problem_)};
+      // Widely copied libraries hold two statements on one line (`Tr 0  illum 2`).
+      while (!cursor.at_end()) {
+        if (!statement(cursor)) return Failure{std::move(problem_)};
+      }
     }
     if (scanner_.too_long()) {
       fail(fmt::format("line longer than {} bytes", limits_.line_bytes));
@@ -75,6 +78,7 @@ class MtlReader {
       library_.materials.push_back({});
       library_.materials.back().name = cursor.rest();
       library_.materials.back().line = scanner_.line();
+      cursor.move_to(cursor.end());
       return !library_.materials.back().name.empty() || fail("`newmtl` without a name");
     }
     if (library_.materials.empty()) {
@@ -105,10 +109,11 @@ class MtlReader {
     if (keyword == "map_bump" || keyword == "map_Bump" || keyword == "bump") {
       return map(keyword, cursor, material.bump_map);
     }
-    return ignore(keyword);
+    return ignore(keyword, cursor);
   }
 
-  bool ignore(std::string_view keyword) {
+  bool ignore(std::string_view keyword, WordCursor& cursor) {
+    cursor.move_to(cursor.end());
     if (library_.ignored.count++ == 0) {
       library_.ignored.first_line = scanner_.line();
       library_.ignored.first_keyword = printable(keyword, shown_text);
@@ -122,9 +127,12 @@ class MtlReader {
     return fail(fmt::format("value of `{}` {}", keyword, describe(problem, cursor.peek())));
   }
 
+  // Another number cannot begin a statement.
   bool finish(std::string_view keyword, WordCursor& cursor) {
-    return cursor.at_end() || fail(fmt::format("unexpected `{}` behind `{}`",
-                                               printable(cursor.rest(), shown_text), keyword));
+    double ignored = 0;
+    if (WordCursor(cursor).number(ignored) != NumberProblem::none) return true;
+    return fail(fmt::format("unexpected `{}` behind `{}`", printable(cursor.rest(), shown_text),
+                            keyword));
   }
 
   bool number(std::string_view keyword, WordCursor& cursor, std::optional<double>& target) {
@@ -137,7 +145,7 @@ class MtlReader {
   // Three numbers, or one for all three. `spectral` and `xyz` forms are read over.
   bool colour(std::string_view keyword, WordCursor& cursor,
               std::optional<std::array<double, 3>>& target) {
-    if (cursor.peek() == "spectral" || cursor.peek() == "xyz") return ignore(keyword);
+    if (cursor.peek() == "spectral" || cursor.peek() == "xyz") return ignore(keyword, cursor);
     std::array<double, 3> rgb{};
     if (!read(keyword, cursor, rgb[0])) return false;
     rgb[1] = rgb[2] = rgb[0];
@@ -160,6 +168,7 @@ class MtlReader {
 
   bool map(std::string_view keyword, WordCursor& cursor, std::string& target) {
     target = map_file(cursor);
+    cursor.move_to(cursor.end());
     return !target.empty() || fail(fmt::format("`{}` without a file name", keyword));
   }
 
