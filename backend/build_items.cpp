@@ -1,0 +1,172 @@
+// Placed items to accelerators.
+#include <map>
+#include <utility>
+
+#include "backend/build.hpp"
+
+namespace scenec::backend {
+namespace {
+
+Point3 point_of(const ir::Point3& p) { return {p.x, p.y, p.z}; }
+Vector3 vector_of(const ir::Point3& p) { return {p.x, p.y, p.z}; }
+Vector3 vector_of(const ir::Direction& d) { return {d.x, d.y, d.z}; }
+
+// Shares what can be shared: one accelerator a mesh, a revolve, a proto.
+class ItemAdder {
+ public:
+  ItemAdder(const PreparedScene& prepared, RenderScene& out, ThreadPool& pool)
+      : prepared_(prepared), scene_(*prepared.scene), out_(out), pool_(pool) {}
+
+  void add_all() {
+    // World items first, so that ties between them go to the first one placed.
+    const auto world = static_cast<std::uint32_t>(scene_.items.size());
+    for (const ir::Item& item : scene_.items) out_.items.push_back({item.material});
+    first_of_proto_.reserve(scene_.protos.size());
+    std::uint32_t next = world;
+    for (const ir::Proto& proto : scene_.protos) {
+      first_of_proto_.push_back(next);
+      next += static_cast<std::uint32_t>(proto.items.size());
+      for (const ir::Item& item : proto.items) out_.items.push_back({item.material});
+    }
+    protos_.resize(scene_.protos.size());
+    for (std::size_t i = 0; i < protos_.size(); ++i) {
+      auto accel = std::make_shared<SceneAccel>();
+      fill(*accel, scene_.protos[ir::ProtoId(static_cast<std::uint32_t>(i))].items, first_of_proto_[i]);
+      accel->build(pool_);
+      protos_[i] = std::move(accel);
+    }
+    fill(out_.accel, scene_.items, 0);
+  }
+
+ private:
+  void fill(SceneAccel& accel, const std::vector<ir::Item>& items, std::uint32_t first) {
+    std::map<ir::TransformId, SceneAccel::TransformIndex> places;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const ir::Item& item = items[i];
+      const auto [place, added] = places.try_emplace(item.transform, SceneAccel::identity);
+      if (added && item.transform.valid()) place->second = accel.add_transform(transform_of(scene_, item.transform));
+      const bool transparent = !item.material.valid() || out_.facts.transparent(item.material);
+      add(accel, first + static_cast<std::uint32_t>(i), item, place->second,
+          transparent || overridden_ ? ItemOption::filtered : ItemOption::plain);
+    }
+  }
+
+  void add(SceneAccel& accel, std::uint32_t number, const ir::Item& item, SceneAccel::TransformIndex place,
+           ItemOption option) {
+    if (const auto* id = std::get_if<Id<ir::Instance>>(&item.shape)) {
+      const std::size_t proto = scene_.shape(*id).of.value();
+      accel.add_instance(number, protos_[proto], place);
+    } else if (const auto* mesh = std::get_if<Id<ir::Mesh>>(&item.shape)) {
+      accel.add_mesh(number, mesh_accel(*prepared_.meshes[mesh->value()], prepared_.meshes[mesh->value()].get()), place, option);
+    } else if (const auto* revolve = std::get_if<Id<ir::Revolve>>(&item.shape)) {
+      accel.add_revolve(number, revolve_accel(*revolve), place, option);
+    } else if (const auto* triangle = std::get_if<Id<ir::Triangle>>(&item.shape)) {
+      const ir::Triangle& shape = scene_.shape(*triangle);
+      if (shape.normals || shape.uvs) accel.add_mesh(number, std::make_shared<MeshAccel>(mesh_of(shape), pool_), place, option);
+      else accel.add(number, kernel_of(shape), place, option);
+    } else {
+      std::visit([&](auto typed) { add_kernel(accel, number, typed, place, option); }, item.shape);
+    }
+  }
+
+  template <class Shape>
+  void add_kernel(SceneAccel& accel, std::uint32_t number, Id<Shape> id, SceneAccel::TransformIndex place, ItemOption option) {
+    if constexpr (requires { kernel_of(scene_.shape(id)); }) accel.add(number, kernel_of(scene_.shape(id)), place, option);
+  }
+
+  std::shared_ptr<const MeshAccel> mesh_accel(const TriangleMesh& mesh, const void* key) {
+    auto& slot = meshes_[key];
+    if (!slot) slot = std::make_shared<MeshAccel>(mesh, pool_);
+    return slot;
+  }
+  std::shared_ptr<const Revolve> revolve_accel(Id<ir::Revolve> id) {
+    auto& slot = revolves_[id];
+    if (!slot) slot = std::make_shared<Revolve>(revolve_of(scene_.shape(id)));
+    return slot;
+  }
+
+  const PreparedScene& prepared_;
+  const ir::Scene& scene_;
+  RenderScene& out_;
+  ThreadPool& pool_;
+  // With an instance that replaces materials by a transparent one, any item may have to be asked.
+  bool overridden_ = has_transparent_override();
+  std::vector<std::uint32_t> first_of_proto_;
+  std::vector<std::shared_ptr<const SceneAccel>> protos_;
+  std::map<const void*, std::shared_ptr<const MeshAccel>> meshes_;
+  std::map<Id<ir::Revolve>, std::shared_ptr<const Revolve>> revolves_;
+
+  [[nodiscard]] bool has_transparent_override() const {
+    const auto any = [&](const std::vector<ir::Item>& items) {
+      for (const ir::Item& item : items) {
+        if (std::holds_alternative<Id<ir::Instance>>(item.shape) && item.material.valid() &&
+            out_.facts.transparent(item.material)) {
+          return true;
+        }
+      }
+      return false;
+    };
+    if (any(scene_.items)) return true;
+    for (const ir::Proto& proto : scene_.protos) {
+      if (any(proto.items)) return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace
+
+Transform transform_of(const ir::Scene& scene, ir::TransformId id) {
+  if (!id.valid()) return {};
+  // Singular matrices do not pass the front end.
+  const auto transform = Transform::from_matrix(scene.transforms[id].m);
+  SCENEC_ASSERT(transform.has_value());
+  return *transform;
+}
+
+Sphere kernel_of(const ir::Sphere& s) { return {point_of(s.center), s.radius.value}; }
+Plane kernel_of(const ir::Plane& p) {
+  return {as_normal(normalized(vector_of(p.normal)).vector()), p.offset.value};
+}
+Triangle kernel_of(const ir::Triangle& t) {
+  return {point_of(t.vertices[0]), point_of(t.vertices[1]), point_of(t.vertices[2])};
+}
+Quad kernel_of(const ir::Quad& q) { return {point_of(q.corner), vector_of(q.edge_u), vector_of(q.edge_v)}; }
+Disk kernel_of(const ir::Disk& d) { return {point_of(d.center), normalized(vector_of(d.normal)), d.radius.value}; }
+Box kernel_of(const ir::Box& b) { return {point_of(b.min), point_of(b.max)}; }
+Cylinder kernel_of(const ir::Cylinder& c) { return Cylinder(point_of(c.base), point_of(c.top), c.radius.value, c.capped); }
+
+TriangleMesh mesh_of(const ir::Triangle& t) {
+  TriangleMesh mesh;
+  for (const ir::Point3& p : t.vertices) mesh.positions.push_back(point_of(p));
+  mesh.faces.push_back({0, 1, 2});
+  if (t.normals) {
+    for (const ir::Direction& n : *t.normals) mesh.normals.push_back({n.x, n.y, n.z});
+  }
+  if (t.uvs) {
+    for (const ir::Vec2& uv : *t.uvs) mesh.uvs.push_back({uv.x, uv.y});
+  }
+  return mesh;
+}
+
+Revolve revolve_of(const ir::Revolve& r) {
+  std::vector<ProfilePoint> points;
+  for (const ir::Vec2& p : r.profile.points) points.push_back({p.x, p.y});
+  Profile profile;
+  switch (r.profile.kind) {
+    case ir::CurveKind::polyline: profile = polyline_profile(points); break;
+    case ir::CurveKind::bezier: profile = bezier_profile(points); break;
+    case ir::CurveKind::beziers: profile = beziers_profile(points); break;
+    case ir::CurveKind::bspline:
+      profile = bspline_profile(points, r.profile.clamped ? SplineEnds::clamped : SplineEnds::uniform);
+      break;
+  }
+  const Axis axis = r.axis == ir::Axis::x ? Axis::x : r.axis == ir::Axis::y ? Axis::y : Axis::z;
+  return Revolve(std::move(profile), axis);
+}
+
+void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& pool) {
+  ItemAdder(prepared, scene, pool).add_all();
+}
+
+}  // namespace scenec::backend

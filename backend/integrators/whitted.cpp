@@ -1,0 +1,164 @@
+// `.whitted`: light that comes straight from lights, seen directly or by way of mirrors and glass;
+// no light between matt or glossy surfaces. Mirrors and glass are followed in all their directions
+// while they matter; fainter branches are chosen by chance, so nothing is cut off.
+#include <array>
+#include <cmath>
+
+#include "backend/integrators/tracer.hpp"
+#include "backend/math/elementary.hpp"
+
+namespace scenec::backend {
+namespace {
+
+// Branches are all followed while the path keeps this share of its light; below, one is chosen.
+constexpr double sure_share = 1.0 / 64;
+// Up to this many lights every one is asked at every surface; of more, one is chosen by power.
+constexpr std::size_t all_lights = 16;
+
+struct Branch {
+  Ray ray;
+  Rgb throughput{1, 1, 1};
+  std::uint32_t depth = 0;
+  MediumStack media;
+};
+
+// Branches waiting. Each one put here is the weaker of two, so few wait at a time; when all places
+// are taken the choice is left to chance.
+struct Waiting {
+  std::array<Branch, 24> branches;
+  std::size_t count = 0;
+};
+
+class WhittedTracer {
+ public:
+  WhittedTracer(const Tracer& tracer, const Sampler& sampler)
+      : tracer_(tracer), scene_(tracer.scene()), sampler_(sampler),
+        max_depth_(static_cast<std::uint64_t>(tracer.settings().max_depth.value_or(std::int64_t{1} << 32))) {}
+
+  TracedSample trace(const Ray& ray) {
+    waiting_.branches[0].ray = ray;
+    waiting_.count = 1;
+    while (waiting_.count > 0) {
+      Branch branch = waiting_.branches[--waiting_.count];
+      while (step(branch)) {}
+    }
+    return out_;
+  }
+
+ private:
+  // Follows one ray; false when the branch ends.
+  bool step(Branch& branch) {
+    Hit hit;
+    const RayKind kind = branch.depth == 0 ? RayKind::camera : RayKind::scattered;
+    if (!tracer_.intersect(branch.ray, kind, branch.depth, sampler_, hit)) {
+      out_.radiance += branch.throughput * tracer_.escaped(branch.ray.direction, branch.depth == 0);
+      return false;
+    }
+    if (branch.depth == 0) out_.covered = true;
+    absorb(branch, hit.t);
+    const Vector3 to_viewer = -branch.ray.direction;
+    out_.radiance += branch.throughput * tracer_.emitted(hit, to_viewer);
+    const std::uint32_t light = scene_.items[hit.item].light;
+    if (light != RenderItem::none) {
+      if (scene_.lights.emitters[light].visible) return false;
+      branch.ray = spawn_ray(hit, branch.ray.direction);
+      return true;
+    }
+    if (branch.depth >= max_depth_) return false;
+    const ir::MaterialId material = scene_.material_of(hit);
+    const double mix = sampler_.get_1d(dimension::bounce(branch.depth) + dimension::material_mix);
+    const Bsdf bsdf = resolve_bsdf(scene_, material, hit, to_viewer, mix);
+    if (branch.depth == 0 && !out_.first.hit) out_.first = first_hit_of(tracer_, hit, bsdf);
+    if (has_smooth_part(bsdf)) out_.radiance += branch.throughput * direct(branch, hit, bsdf);
+    return follow(branch, hit, bsdf, material);
+  }
+
+  void absorb(Branch& branch, double distance) const {
+    if (branch.media.empty()) return;
+    const Rgb sigma = absorption_of(scene_, branch.media.innermost());
+    branch.throughput *= Rgb(exp(-sigma.r * distance), exp(-sigma.g * distance), exp(-sigma.b * distance));
+  }
+
+  [[nodiscard]] Rgb direct(const Branch& branch, const Hit& hit, const Bsdf& bsdf) const {
+    const auto whole = [](const LightSample&, double) { return 1.0; };
+    const LightTable& lights = scene_.lights;
+    const bool many = lights.size() > all_lights;
+    Rgb sum;
+    if (many) {
+      const double u = sampler_.get_1d(dimension::bounce(branch.depth) + dimension::light_choice);
+      const LightTable::Choice choice = lights.choose(u);
+      if (choice.probability > 0) {
+        sum = tracer_.direct(hit, bsdf, choice.light, branch.depth, sampler_, whole) * (1 / choice.probability);
+      }
+    }
+    for (std::size_t light = many ? lights.first_environment() : 0; light < lights.size(); ++light) {
+      // Constant environments cannot be drawn: they are asked in any case.
+      if (many && !lights.is_constant_environment(light)) continue;
+      sum += tracer_.direct(hit, bsdf, light, branch.depth, sampler_, whole);
+    }
+    return sum;
+  }
+
+  // The next ray of the branch; the weaker of two waits.
+  bool follow(Branch& branch, const Hit& hit, const Bsdf& bsdf, ir::MaterialId material) {
+    SpecularRays rays = specular_rays(bsdf);
+    if (rays.count == 0) return false;
+    if (rays.count == 2 && max_component(rays.rays[0].weight) < max_component(rays.rays[1].weight)) {
+      std::swap(rays.rays[0], rays.rays[1]);
+    }
+    const Rgb before = branch.throughput;
+    const std::uint32_t base = dimension::bounce(branch.depth);
+    if (rays.count == 2) {
+      const double weak = max_component(before * rays.rays[1].weight);
+      if (weak >= sure_share && waiting_.count < waiting_.branches.size()) {
+        Branch& other = waiting_.branches[waiting_.count++];
+        other = branch;
+        advance(other, rays.rays[1], hit, bsdf, material);
+      } else {
+        const double a = max_component(rays.rays[0].weight);
+        const double b = max_component(rays.rays[1].weight);
+        const double first = a / (a + b);
+        const bool takes_first = sampler_.get_1d(base + dimension::lobe) < first;
+        branch.throughput *= takes_first ? 1 / first : 1 / (1 - first);
+        if (!takes_first) std::swap(rays.rays[0], rays.rays[1]);
+      }
+    }
+    advance(branch, rays.rays[0], hit, bsdf, material);
+    const double share = max_component(branch.throughput);
+    if (!(share > 0)) return false;
+    if (share >= sure_share && branch.depth < longest_sure) return true;
+    const double p = std::fmin(longest_survival, share / sure_share);
+    if (!(sampler_.get_1d(base + dimension::roulette) < p)) return false;
+    branch.throughput *= 1 / p;
+    return true;
+  }
+
+  void advance(Branch& branch, const SpecularRay& next, const Hit& hit, const Bsdf& bsdf, ir::MaterialId material) const {
+    branch.throughput *= next.weight;
+    branch.ray = spawn_ray(hit, next.wi);
+    if (next.transmitted) {
+      if (bsdf.entering) branch.media.enter(material);
+      else branch.media.leave(material);
+    }
+    ++branch.depth;
+  }
+
+  // Mirrors that lose nothing would be followed for ever.
+  static constexpr std::uint32_t longest_sure = 32;
+  static constexpr double longest_survival = 0.95;
+
+  const Tracer& tracer_;
+  const RenderScene& scene_;
+  const Sampler& sampler_;
+  std::uint64_t max_depth_;
+  Waiting waiting_;
+  TracedSample out_;
+};
+
+}  // namespace
+
+TracedSample trace_whitted(const Tracer& tracer, const Ray& ray, const Sampler& sampler) {
+  return WhittedTracer(tracer, sampler).trace(ray);
+}
+
+}  // namespace scenec::backend

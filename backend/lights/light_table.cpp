@@ -1,0 +1,162 @@
+#include "backend/lights/light_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "backend/math/elementary.hpp"
+
+namespace scenec::backend {
+namespace {
+
+Rgb rgb_of(const ir::Color& c) { return {c.r, c.g, c.b}; }
+Point3 point_of(const ir::Point3& p) { return {p.x, p.y, p.z}; }
+UnitVector3 unit_of(const ir::Direction& d) { return normalized(Vector3{d.x, d.y, d.z}); }
+
+template <class L>
+Rgb intensity_of(const L& light) {
+  return rgb_of(light.color) * (light.intensity ? *light.intensity : light.power ? light.power->value / (4 * pi) : 0);
+}
+
+}  // namespace
+
+std::optional<DeltaLight> delta_light_of(const ir::LightKind& kind) {
+  DeltaLight out;
+  if (const auto* point = std::get_if<ir::PointLight>(&kind)) {
+    out.position = point_of(point->position);
+    out.inverse_square = point->decay == ir::Decay::inverse_square;
+    out.value = intensity_of(*point);
+    return out;
+  }
+  if (const auto* spot = std::get_if<ir::SpotLight>(&kind)) {
+    out.kind = DeltaLight::Kind::spot;
+    out.position = point_of(spot->position);
+    out.direction = unit_of(spot->direction);
+    out.inverse_square = spot->decay == ir::Decay::inverse_square;
+    const double half = std::fmin(spot->angle.value / 2, pi);
+    out.cos_edge = cos(half);
+    out.cos_full = cos(std::fmax(0, half - spot->falloff.value));
+    out.value = intensity_of(*spot);
+    return out;
+  }
+  if (const auto* far = std::get_if<ir::DirectionalLight>(&kind)) {
+    out.kind = DeltaLight::Kind::directional;
+    out.direction = unit_of(far->direction);
+    out.value = rgb_of(far->color) * far->irradiance;
+    return out;
+  }
+  return std::nullopt;
+}
+
+double spot_share(const DeltaLight& light, const Vector3& travel) {
+  const double c = dot(travel, light.direction);
+  if (c < light.cos_edge) return 0;
+  if (c >= light.cos_full) return 1;
+  const double t = (c - light.cos_edge) / (light.cos_full - light.cos_edge);
+  return t * t * (3 - 2 * t);
+}
+
+void LightTable::finish(double scene_radius) {
+  const double disk = pi * scene_radius * scene_radius;
+  probability_.clear();
+  for (const DeltaLight& l : deltas) {
+    double factor = 4 * pi;
+    if (l.kind == DeltaLight::Kind::directional) factor = disk;
+    if (l.kind == DeltaLight::Kind::spot) factor = 2 * pi * (1 - (l.cos_edge + l.cos_full) / 2);
+    // Without decay the light does not get weaker on its way: as much arrives as from far away.
+    if (l.kind != DeltaLight::Kind::directional && !l.inverse_square) factor = disk;
+    probability_.push_back(luminance(l.value) * factor);
+  }
+  for (const Emitter& e : emitters) {
+    probability_.push_back(e.area > 0 ? luminance(e.radiance) * e.area * pi * (e.two_sided ? 2 : 1) : 0);
+  }
+  // Even light from everywhere is found best by the surface's own directions: aiming at it adds noise.
+  for (const Environment& e : environments) probability_.push_back(e.is_constant() ? 0 : luminance(e.mean()) * pi * disk);
+  double sum = 0;
+  for (double& p : probability_) {
+    if (!(p > 0) || !std::isfinite(p)) p = 0;
+    sum += p;
+  }
+  cumulative_.clear();
+  double running = 0;
+  for (double& p : probability_) {
+    p = sum > 0 ? p / sum : 0;
+    running += p;
+    cumulative_.push_back(running);
+  }
+}
+
+LightTable::Choice LightTable::choose(double u) const {
+  if (cumulative_.empty() || !(cumulative_.back() > 0)) return {};
+  const double scaled = u * cumulative_.back();
+  const auto above = std::upper_bound(cumulative_.begin(), cumulative_.end(), scaled);
+  auto light = static_cast<std::size_t>(above - cumulative_.begin());
+  // Rounding of u * sum can reach the sum itself.
+  while (light >= probability_.size() || probability_[light] == 0) --light;
+  return {light, probability_[light]};
+}
+
+std::optional<LightSample> LightTable::sample_delta(const DeltaLight& light, const Point3& from) const {
+  LightSample s;
+  s.delta = true;
+  if (light.kind == DeltaLight::Kind::directional) {
+    s.wi = -light.direction.vector();
+    s.radiance = light.value;
+    s.infinite = true;
+    return s;
+  }
+  const Vector3 way = light.position - from;
+  const double distance2 = length_squared(way);
+  if (!(distance2 > 0)) return std::nullopt;
+  s.wi = normalized(way).vector();
+  s.radiance = light.inverse_square ? light.value / distance2 : light.value;
+  if (light.kind == DeltaLight::Kind::spot) s.radiance *= spot_share(light, -s.wi);
+  s.target = light.position;
+  return s;
+}
+
+std::optional<LightSample> LightTable::sample(std::size_t light, const Point3& from, Sample2 u) const {
+  if (light < deltas.size()) return sample_delta(deltas[light], from);
+  light -= deltas.size();
+  LightSample s;
+  if (light < emitters.size()) {
+    const Emitter& e = emitters[light];
+    const auto chosen = sample_emitter(e, from, u);
+    if (!chosen) return std::nullopt;
+    if (!e.two_sided && !(dot(chosen->wi, chosen->normal) < 0)) return std::nullopt;
+    s.wi = chosen->wi.vector();
+    s.radiance = e.radiance;
+    s.pdf = chosen->pdf;
+    s.target = chosen->point;
+    s.target_error = chosen->error;
+    s.target_normal = chosen->normal;
+    s.emitter = &e;
+    return s;
+  }
+  const Environment& environment = environments[light - emitters.size()];
+  const Environment::Choice chosen = environment.sample(u);
+  if (!(chosen.pdf > 0)) return std::nullopt;
+  s.wi = chosen.wi.vector();
+  s.radiance = environment.radiance(s.wi);
+  s.pdf = chosen.pdf;
+  s.infinite = true;
+  return s;
+}
+
+double LightTable::pdf_of_emitter(std::size_t emitter, const Point3& from, const Point3& point,
+                                  const UnitVector3& normal) const {
+  const double probability = probability_[deltas.size() + emitter];
+  return probability > 0 ? probability * pdf_emitter(emitters[emitter], from, point, normal) : 0;
+}
+
+double LightTable::pdf_of_environment(std::size_t environment, const Vector3& direction) const {
+  const double probability = probability_[deltas.size() + emitters.size() + environment];
+  return probability > 0 ? probability * environments[environment].pdf(direction) : 0;
+}
+
+Rgb LightTable::environment_radiance(const Vector3& direction) const {
+  Rgb sum;
+  for (const Environment& environment : environments) sum += environment.radiance(direction);
+  return sum;
+}
+
+}  // namespace scenec::backend

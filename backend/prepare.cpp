@@ -1,0 +1,172 @@
+#include "backend/prepare.hpp"
+
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+#include "backend/assets/obj.hpp"
+#include "backend/assets/ply.hpp"
+#include "backend/backend.hpp"
+#include "backend/image/read_image.hpp"
+#include "base/text.hpp"
+
+namespace scenec::backend {
+
+void destroy(PreparedScene* scene) { delete scene; }
+
+namespace {
+
+using MeshTask = std::pair<AssetProblem, bool>;
+
+// Diagnostics of one task; reported afterwards in the order of the tasks.
+struct TaskReport {
+  std::vector<Diagnostic> diagnostics;
+};
+
+std::optional<FileContent> read_asset(const ir::Asset& asset, FileSystem& files, std::uint64_t limit, TaskReport& report) {
+  auto content = files.read(asset.path, limit);
+  if (content) return std::move(content).value();
+  report.diagnostics.emplace_back(DiagnosticKind::file_unreadable, asset.span,
+                                  asset.path + " cannot be read: " + std::string(text_of(content.error())));
+  return std::nullopt;
+}
+
+std::string located(const std::string& path, const AssetProblem& problem) {
+  return path + (problem.line != 0 ? ":" + std::to_string(problem.line) : "") + ": " + problem.message;
+}
+
+std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, TaskReport& report) {
+  const std::string extension = extension_of(asset.path);
+  if (extension != ".obj" && extension != ".ply") {
+    report.diagnostics.push_back(
+        Diagnostic(DiagnosticKind::mesh_format_unknown, asset.span, asset.path + " is neither an `.obj` nor a `.ply` file"));
+    return std::nullopt;
+  }
+  const MeshLimits limits;
+  const auto content = read_asset(asset, files, limits.file_bytes, report);
+  if (!content) return std::nullopt;
+  auto data = extension == ".obj" ? read_obj(content->bytes, limits) : read_ply(content->bytes, limits);
+  if (data) return std::move(data).value();
+  report.diagnostics.emplace_back(DiagnosticKind::mesh_broken, asset.span, located(asset.path, data.error()));
+  return std::nullopt;
+}
+
+std::shared_ptr<const DecodedImage> read_picture(const ir::Asset& asset, FileSystem& files, TaskReport& report) {
+  const ImageLimits limits;
+  const auto content = read_asset(asset, files, limits.file_bytes, report);
+  if (!content) return nullptr;
+  auto image = read_image(content->bytes, extension_of(asset.path), limits);
+  if (image) return std::make_shared<DecodedImage>(std::move(image).value());
+  report.diagnostics.emplace_back(DiagnosticKind::image_broken, asset.span, located(asset.path, image.error()));
+  return nullptr;
+}
+
+// Meshes grouped by the file they come from: a file is read once and forgotten when its meshes are
+// made. Inline meshes are groups of their own.
+struct MeshGroup {
+  ir::AssetId asset;
+  std::vector<std::size_t> meshes;
+};
+
+std::vector<MeshGroup> group_meshes(const ir::Scene& scene) {
+  std::vector<MeshGroup> groups;
+  std::map<ir::AssetId, std::size_t> group_of;
+  const auto& table = scene.table<ir::Mesh>();
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const ir::AssetId asset = table[Id<ir::Mesh>(static_cast<std::uint32_t>(i))].file;
+    if (!asset.valid()) {
+      groups.push_back({asset, {i}});
+      continue;
+    }
+    const auto [place, added] = group_of.try_emplace(asset, groups.size());
+    if (added) groups.push_back({asset, {}});
+    groups[place->second].meshes.push_back(i);
+  }
+  return groups;
+}
+
+bool same_result(const ir::Mesh& a, const ir::Mesh& b) {
+  return a.unit == b.unit && a.normals == b.normals;
+}
+
+// The place of an inline mesh: the first item that shows it.
+std::vector<Span> spans_of_meshes(const ir::Scene& scene) {
+  std::vector<Span> spans(scene.table<ir::Mesh>().size());
+  const auto look = [&](const std::vector<ir::Item>& items) {
+    for (const ir::Item& item : items) {
+      const auto* id = std::get_if<Id<ir::Mesh>>(&item.shape);
+      if (id != nullptr && !spans[id->value()].valid() && item.origin.valid()) {
+        spans[id->value()] = scene.origins[item.origin].span;
+      }
+    }
+  };
+  look(scene.items);
+  for (const ir::Proto& proto : scene.protos) look(proto.items);
+  return spans;
+}
+
+void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::vector<Span>& spans, FileSystem& files,
+                   PreparedScene& prepared, TaskReport& task) {
+  const auto mesh_at = [&](std::size_t i) -> const ir::Mesh& {
+    return scene.table<ir::Mesh>()[Id<ir::Mesh>(static_cast<std::uint32_t>(i))];
+  };
+  std::optional<MeshData> data;
+  if (group.asset.valid()) {
+    data = read_mesh(scene.assets[group.asset], files, task);
+    if (!data) return;
+  }
+  for (std::size_t n = 0; n < group.meshes.size(); ++n) {
+    const std::size_t index = group.meshes[n];
+    const ir::Mesh& source = mesh_at(index);
+    const auto same = std::find_if(group.meshes.begin(), group.meshes.begin() + static_cast<std::ptrdiff_t>(n),
+                                   [&](std::size_t other) { return same_result(mesh_at(other), source); });
+    if (data && same != group.meshes.begin() + static_cast<std::ptrdiff_t>(n)) {
+      prepared.meshes[index] = prepared.meshes[*same];
+      continue;
+    }
+    MeshReport report;
+    TriangleMesh mesh = data ? mesh_of_file(source, *data, scene.assets[group.asset].path, scene.assets[group.asset].span, report)
+                             : mesh_of_lists(source, spans[index], report);
+    if (report.error) task.diagnostics.push_back(std::move(*report.error));
+    for (Diagnostic& warning : report.warnings) task.diagnostics.push_back(std::move(warning));
+    prepared.meshes[index] = std::make_shared<TriangleMesh>(std::move(mesh));
+  }
+}
+
+std::vector<ir::AssetId> images_of(const ir::Scene& scene) {
+  std::vector<ir::AssetId> images;
+  for (const ir::TextureNode& node : scene.textures) {
+    if (const auto* image = std::get_if<ir::ImageTexture>(&node.kind)) images.push_back(image->file);
+  }
+  std::sort(images.begin(), images.end());
+  images.erase(std::unique(images.begin(), images.end()), images.end());
+  return images;
+}
+
+}  // namespace
+
+PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool, DiagnosticSink& sink) {
+  PreparedPtr prepared(new PreparedScene{&scene, {}, {}});
+  prepared->meshes.resize(scene.table<ir::Mesh>().size());
+  prepared->images.resize(scene.assets.size());
+  const std::vector<MeshGroup> groups = group_meshes(scene);
+  const std::vector<ir::AssetId> images = images_of(scene);
+  const std::vector<Span> spans = spans_of_meshes(scene);
+  std::vector<TaskReport> reports(groups.size() + images.size());
+  pool.for_each(reports.size(), [&](std::size_t i, unsigned) {
+    if (i < groups.size()) {
+      prepare_group(groups[i], scene, spans, files, *prepared, reports[i]);
+    } else {
+      const ir::AssetId asset = images[i - groups.size()];
+      prepared->images[asset.value()] = read_picture(scene.assets[asset], files, reports[i]);
+    }
+  });
+  const std::size_t errors_before = sink.error_count();
+  for (TaskReport& report : reports) {
+    for (Diagnostic& diagnostic : report.diagnostics) sink.report(std::move(diagnostic));
+  }
+  check_items(scene, sink);
+  return sink.error_count() == errors_before ? std::move(prepared) : nullptr;
+}
+
+}  // namespace scenec::backend

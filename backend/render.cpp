@@ -1,0 +1,204 @@
+// Tiles over threads, rounds of samples, stopping.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include "backend/backend.hpp"
+#include "backend/cameras/camera.hpp"
+#include "backend/film/film.hpp"
+#include "backend/film/filter.hpp"
+#include "backend/integrators/tracer.hpp"
+
+namespace scenec::backend {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t tile_side = 16;
+constexpr std::int64_t most_samples = 1'048'576;
+// `stop.error` needs this many samples, and two rounds that agree, before it is believed.
+constexpr std::int64_t samples_before_error = 64;
+
+std::int64_t sample_cap(const ir::RenderSettings& s) {
+  if (s.samples) return *s.samples;
+  if (s.stop.samples) return *s.stop.samples;
+  if (s.stop.error || s.stop.time) return most_samples;
+  if (s.film == ir::FilmKind::course) return 1;
+  return s.method == ir::Method::path ? 64 : 16;
+}
+
+// Rounds grow by a quarter of what is there, so that stopping at a round's end costs little.
+std::int64_t next_round(std::int64_t done, std::int64_t cap) {
+  return std::min(cap - done, std::max<std::int64_t>(1, done / 4));
+}
+
+// Tells the caller how far the picture is, at most every few milliseconds.
+class ProgressReporter {
+ public:
+  ProgressReporter(const ProgressFunction& report, Clock::time_point start) : report_(report), last_(start) {}
+
+  void update(double fraction, std::int64_t samples_done) {
+    if (!report_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return;
+    const Clock::time_point now = Clock::now();
+    if (now - last_ < std::chrono::milliseconds(5) && fraction < 1) return;
+    last_ = now;
+    best_ = std::max(best_, std::clamp(fraction, 0.0, 1.0));
+    report_({best_, samples_done});
+  }
+
+ private:
+  const ProgressFunction& report_;
+  std::mutex mutex_;
+  Clock::time_point last_;
+  double best_ = 0;
+};
+
+class Renderer {
+ public:
+  Renderer(const RenderScene& scene, const ir::RenderSettings& settings, ThreadPool& pool, std::stop_token stop,
+           const ProgressFunction& progress)
+      : scene_(scene), settings_(settings), pool_(pool), stop_(std::move(stop)), start_(Clock::now()),
+        progress_(progress, start_), camera_(scene.scene->cameras[settings.camera], settings.size),
+        filter_(settings.filter), film_(settings, settings.stop.error ? Film::Squares::yes : Film::Squares::no),
+        cap_(sample_cap(settings)), counters_(pool.size()) {
+    tiles_x_ = (film_.region_width() + tile_side - 1) / tile_side;
+    tiles_y_ = (film_.region_height() + tile_side - 1) / tile_side;
+  }
+
+  Picture run() {
+    bool complete = true;
+    while (film_.samples() < cap_ && !good_enough()) {
+      const std::int64_t count = next_round(film_.samples(), cap_);
+      if (!render_round(count)) {
+        complete = false;
+        break;
+      }
+      film_.finish_round(count, pool_);
+    }
+    Picture picture = film_.picture();
+    picture.complete = complete;
+    for (const Counters& c : counters_) picture.rays += c.rays.rays;
+    return picture;
+  }
+
+ private:
+  // Workers do not share cache lines.
+  struct alignas(64) Counters {
+    RayCounters rays;
+  };
+
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  bool good_enough() {
+    if (film_.samples() == 0) return false;
+    if (settings_.stop.time && seconds() >= settings_.stop.time->value) return true;
+    if (!settings_.stop.error || film_.samples() < samples_before_error) return false;
+    const bool now = film_.estimated_error() <= *settings_.stop.error;
+    const bool before = std::exchange(error_reached_, now);
+    return now && before;
+  }
+
+  bool render_round(std::int64_t count) {
+    const std::size_t tiles = tiles_x_ * tiles_y_;
+    std::atomic<std::size_t> done{0};
+    std::atomic<bool> cut{false};
+    const std::int64_t first = film_.samples();
+    const bool all = pool_.for_each(tiles, [&](std::size_t tile, unsigned worker) {
+      if (!render_tile(tile, first, count, counters_[worker].rays)) {
+        cut.store(true, std::memory_order_relaxed);
+        return;
+      }
+      const std::size_t finished = done.fetch_add(1, std::memory_order_relaxed) + 1;
+      const double part = static_cast<double>(finished) / static_cast<double>(tiles);
+      progress_.update(fraction(static_cast<double>(first) + part * static_cast<double>(count)), first);
+    }, stop_);
+    return all && !cut.load();
+  }
+
+  [[nodiscard]] double fraction(double samples) const {
+    double f = samples / static_cast<double>(cap_);
+    if (settings_.stop.time) f = std::fmax(f, seconds() / settings_.stop.time->value);
+    return f;
+  }
+
+  // False when a stop request came in between.
+  bool render_tile(std::size_t tile, std::int64_t first, std::int64_t count, RayCounters& counters) {
+    const Tracer tracer(scene_, settings_, counters);
+    const std::size_t x0 = tile % tiles_x_ * tile_side;
+    const std::size_t y0 = tile / tiles_x_ * tile_side;
+    const std::size_t x1 = std::min(x0 + tile_side, film_.region_width());
+    const std::size_t y1 = std::min(y0 + tile_side, film_.region_height());
+    for (std::size_t y = y0; y < y1; ++y) {
+      for (std::size_t x = x0; x < x1; ++x) {
+        for (std::int64_t s = first; s < first + count; ++s) {
+          if (stop_.stop_requested()) return false;
+          film_.add(x, y, sample(tracer, x, y, s));
+        }
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] FilmSample sample(const Tracer& tracer, std::size_t x, std::size_t y, std::int64_t number) const {
+    const std::int64_t px = film_.region().x0 + static_cast<std::int64_t>(x);
+    const std::int64_t py = film_.region().y0 + static_cast<std::int64_t>(y);
+    const auto pixel = static_cast<std::uint64_t>(py * settings_.size.width + px);
+    const Sampler sampler(settings_.sampler, static_cast<std::uint64_t>(settings_.seed), pixel,
+                          static_cast<std::uint64_t>(number));
+    FilmSample out;
+    // film .course: the lower left corner.
+    double film_x = static_cast<double>(px);
+    double film_y = static_cast<double>(py + 1);
+    if (settings_.film == ir::FilmKind::standard) {
+      const FilterSample offset = filter_.sample(sampler.get_2d(dimension::pixel_filter));
+      film_x = static_cast<double>(px) + 0.5 + offset.dx;
+      film_y = static_cast<double>(py) + 0.5 + offset.dy;
+      out.weight = offset.weight;
+    }
+    const Sample2 lens = camera_.has_lens() ? sampler.get_2d(dimension::lens) : Sample2{};
+    const Ray ray = camera_.ray(film_x, film_y, lens);
+    const TracedSample traced = trace(tracer, ray, sampler);
+    out.radiance = traced.radiance;
+    out.covered = traced.covered;
+    out.first = traced.first;
+    return out;
+  }
+
+  [[nodiscard]] TracedSample trace(const Tracer& tracer, const Ray& ray, const Sampler& sampler) const {
+    switch (settings_.method) {
+      case ir::Method::path: return trace_path(tracer, ray, sampler);
+      case ir::Method::whitted: return trace_whitted(tracer, ray, sampler);
+      case ir::Method::phong: return trace_phong(tracer, ray, sampler);
+    }
+    return {};
+  }
+
+  const RenderScene& scene_;
+  const ir::RenderSettings& settings_;
+  ThreadPool& pool_;
+  std::stop_token stop_;
+  Clock::time_point start_;
+  ProgressReporter progress_;
+  CameraSampler camera_;
+  FilterSampler filter_;
+  Film film_;
+  std::int64_t cap_;
+  std::vector<Counters> counters_;
+  std::size_t tiles_x_ = 0;
+  std::size_t tiles_y_ = 0;
+  bool error_reached_ = false;
+};
+
+}  // namespace
+
+Picture render(const RenderScene& scene, const ir::RenderSettings& settings, ThreadPool& pool, std::stop_token stop,
+               const ProgressFunction& progress) {
+  SCENEC_ASSERT(settings.camera.valid());
+  return Renderer(scene, settings, pool, std::move(stop), progress).run();
+}
+
+}  // namespace scenec::backend
