@@ -170,8 +170,11 @@ TEST(ElementaryEdges, PowAsInTheStandard) {
     for (const double y : {-infinity, -3.0, -2.0, -0.5, 0.5, 1.0, 2.0, 3.0, 1e300, infinity}) {
       const double want = std::pow(x, y);
       const double got = pow(x, y);
-      if (std::isnan(want)) EXPECT_TRUE(std::isnan(got)) << x << " " << y;
-      else EXPECT_EQ(got, want) << x << " " << y;
+      if (std::isnan(want)) {
+        EXPECT_TRUE(std::isnan(got)) << x << " " << y;
+      } else {
+        EXPECT_EQ(got, want) << x << " " << y;
+      }
     }
   EXPECT_EQ(pow(2.0, 10.0), 1024.0);
   EXPECT_EQ(pow(10.0, 22.0), 1e22);
