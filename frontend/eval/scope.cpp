@@ -1,0 +1,80 @@
+#include "frontend/eval/scope.hpp"
+
+namespace scenec::frontend {
+
+namespace {
+// Up to here looking through the names is faster than hashing them.
+constexpr std::size_t max_unindexed = 8;
+
+bool is_visible(const Binding& binding, Span use) {
+  return binding.span.file != use.file || binding.span.begin < use.begin;
+}
+}  // namespace
+
+std::string_view text_of(BindingKind kind) {
+  switch (kind) {
+    case BindingKind::let: return "let";
+    case BindingKind::param: return "param";
+    case BindingKind::loop_variable: return "loop variable";
+    case BindingKind::parameter: return "parameter";
+    case BindingKind::material: return "material";
+    case BindingKind::proto: return "proto";
+    case BindingKind::function: return "function";
+    case BindingKind::macro: return "macro";
+    case BindingKind::name_space: return "namespace";
+  }
+  return "name";
+}
+
+Binding* Scope::find_here(std::string_view name) {
+  if (!index_.empty()) {
+    const auto place = index_.find(name);
+    return place == index_.end() ? nullptr : &bindings_[place->second];
+  }
+  for (Binding& binding : bindings_) {
+    if (binding.name == name) return &binding;
+  }
+  return nullptr;
+}
+
+Scope::Found Scope::find(std::string_view name, Span use) {
+  for (Scope* scope = this; scope != nullptr; scope = scope->parent_) {
+    Binding* binding = scope->find_here(name);
+    if (binding != nullptr && is_visible(*binding, use)) return {binding, scope};
+  }
+  return {};
+}
+
+Binding& Scope::add(Binding binding) {
+  bindings_.push_back(std::move(binding));
+  if (bindings_.size() > max_unindexed) {
+    if (index_.empty()) {
+      for (std::size_t i = 0; i < bindings_.size(); ++i) index_.emplace(bindings_[i].name, static_cast<std::uint32_t>(i));
+    } else {
+      index_.emplace(bindings_.back().name, static_cast<std::uint32_t>(bindings_.size() - 1));
+    }
+  }
+  return bindings_.back();
+}
+
+std::vector<std::string_view> Scope::visible_names(Span use) const {
+  std::vector<std::string_view> names;
+  for (const Scope* scope = this; scope != nullptr; scope = scope->parent_) {
+    for (const Binding& binding : scope->bindings_) {
+      if (is_visible(binding, use)) names.push_back(binding.name);
+    }
+  }
+  return names;
+}
+
+const std::shared_ptr<Scope>& Scope::name_space(std::string_view name) const {
+  static const std::shared_ptr<Scope> none;
+  const auto place = name_spaces_.find(name);
+  return place == name_spaces_.end() ? none : place->second;
+}
+
+void Scope::add_name_space(std::string_view name, std::shared_ptr<Scope> scope) {
+  name_spaces_.emplace(name, std::move(scope));
+}
+
+}  // namespace scenec::frontend

@@ -1,0 +1,115 @@
+#include "frontend/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/hash.hpp"
+#include "base/text.hpp"
+
+namespace scenec::frontend {
+
+namespace {
+constexpr std::size_t max_expansion_notes = 8;
+}
+
+Session::Session(const CompileOptions& compile_options, FileSystem& file_system, SourceMap& source_map,
+                 DiagnosticSink& diagnostic_sink)
+    : options(compile_options), files(file_system), sources(source_map), sink(diagnostic_sink) {}
+
+void Session::report(Diagnostic diagnostic) {
+  std::size_t notes = 0;
+  for (auto expansion = expansions_.rbegin(); expansion != expansions_.rend(); ++expansion) {
+    if (notes++ == max_expansion_notes) {
+      diagnostic.notes.push_back({fmt::format("and {} more calls further out", expansions_.size() - max_expansion_notes), {}});
+      break;
+    }
+    diagnostic.notes.push_back({fmt::format("expanded from `{}` here", printable(expansion->name)), expansion->span});
+  }
+  sink.report(std::move(diagnostic));
+}
+
+Value Session::error(DiagnosticKind kind, Span span, std::string message) {
+  report(Diagnostic(kind, span, std::move(message)));
+  return {};
+}
+
+Value Session::error(Diagnostic diagnostic) {
+  report(std::move(diagnostic));
+  return {};
+}
+
+bool Session::is_allowed(DiagnosticKind kind) const {
+  return std::find(allowed_.begin(), allowed_.end(), kind) != allowed_.end();
+}
+
+void Session::lint(Diagnostic diagnostic) {
+  if (!is_allowed(diagnostic.kind)) report(std::move(diagnostic));
+}
+
+Session::Expanding::Expanding(Session& owner, std::string_view name, Span span)
+    : session(owner), before(owner.expansion_origin_) {
+  if (!session.checking_only()) {
+    session.expansion_origin_ = session.builder.add_origin({span, before, ir::OriginKind::expanded_from});
+  }
+  session.expansions_.push_back({name, span});
+}
+
+Session::Expanding::~Expanding() {
+  session.expansions_.pop_back();
+  session.expansion_origin_ = before;
+}
+
+ir::OriginId Session::add_origin(Span span) {
+  const auto kind = expansion_origin_.valid() ? ir::OriginKind::expanded_from : ir::OriginKind::written;
+  return builder.add_origin({span, expansion_origin_, kind});
+}
+
+bool Session::exhausted(Span where) {
+  if (!std::exchange(exhaustion_reported_, true)) {
+    error(DiagnosticKind::too_many_steps, where,
+          fmt::format("evaluating the scene takes more than {} steps", max_evaluation_steps));
+  }
+  return false;
+}
+
+bool Session::count_item(Span where) {
+  if (++items_ <= options.max_items) return true;
+  if (items_ == options.max_items + 1) {
+    error(Diagnostic(DiagnosticKind::too_many_items, where,
+                     fmt::format("the scene places more than {} items", options.max_items))
+              .hint("`--max-items` sets the limit"));
+  }
+  return false;
+}
+
+std::string Session::resolved_path(std::string_view path, FileId file) const {
+  return joined_path(directory_of(sources.path(sources.resolve({file, 0, 0}).file)), path);
+}
+
+ir::AssetId Session::asset(std::string_view path, FileId file, Span span) {
+  const std::string resolved = resolved_path(path, file);
+  const auto [place, added] = assets_.try_emplace(resolved);
+  if (!added && place->second.valid()) return place->second;
+  auto content = files.read(resolved, max_asset_bytes);
+  if (!content) {
+    error(DiagnosticKind::file_unreadable, span,
+          fmt::format("cannot read {}: {}", quoted_string(resolved), text_of(content.error())));
+    return {};
+  }
+  place->second = builder.add_asset({resolved, hash_bytes(content.value().bytes), span});
+  return place->second;
+}
+
+Diagnostic unknown_word(DiagnosticKind kind, Span span, std::string message, std::string_view word,
+                        std::span<const std::string_view> legal, std::string_view legal_title) {
+  Diagnostic diagnostic(kind, span, std::move(message));
+  if (const auto nearest = nearest_name(word, legal)) {
+    diagnostic.hints.push_back(fmt::format("did you mean `{}`?", *nearest));
+  }
+  if (!legal.empty()) diagnostic.hints.push_back(fmt::format("{}: {}", legal_title, quoted_list(legal)));
+  return diagnostic;
+}
+
+}  // namespace scenec::frontend

@@ -1,0 +1,122 @@
+// What all phases of one compilation share: files, sources, diagnostics, the builder, and the
+// budget. One per call of `compile`; never global.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "base/diagnostic.hpp"
+#include "base/file_system.hpp"
+#include "base/source_map.hpp"
+#include "frontend/compile.hpp"
+#include "frontend/eval/value.hpp"
+#include "ir/builder.hpp"
+
+namespace scenec::frontend {
+
+inline constexpr std::uint64_t max_evaluation_steps = 500'000'000;
+inline constexpr std::size_t max_list_elements = 16'000'000;
+inline constexpr std::size_t max_string_bytes = std::size_t{1} << 20;
+inline constexpr std::uint64_t max_asset_bytes = std::uint64_t{2} << 30;
+// A list element holds a cache line of memory, so it costs more than a step of arithmetic.
+inline constexpr std::uint64_t steps_per_list_element = 16;
+
+class Session {
+ public:
+  Session(const CompileOptions& compile_options, FileSystem& file_system, SourceMap& source_map,
+          DiagnosticSink& diagnostic_sink);
+
+  const CompileOptions& options;
+  FileSystem& files;
+  SourceMap& sources;
+  DiagnosticSink& sink;
+  ir::SceneBuilder builder;
+
+  // Bodies are being checked, not run: values are types only, nothing is built.
+  [[nodiscard]] bool checking_only() const { return checking_ > 0; }
+  struct CheckOnly {
+    explicit CheckOnly(Session& owner) : session(owner) { ++session.checking_; }
+    ~CheckOnly() { --session.checking_; }
+    CheckOnly(const CheckOnly&) = delete;
+    CheckOnly& operator=(const CheckOnly&) = delete;
+    Session& session;
+  };
+
+  // ---- diagnostics
+  void report(Diagnostic diagnostic);  // adds "expanded from" notes
+  // Reports and gives the poison value.
+  Value error(DiagnosticKind kind, Span span, std::string message);
+  Value error(Diagnostic diagnostic);
+  // Reports unless an `@allow` of an item around it names the lint.
+  void lint(Diagnostic diagnostic);
+  [[nodiscard]] bool is_allowed(DiagnosticKind kind) const;
+
+  // The lints allowed for an item and what is inside it.
+  struct Allowing {
+    Allowing(Session& owner, std::span<const DiagnosticKind> kinds) : session(owner), before(owner.allowed_.size()) {
+      session.allowed_.insert(session.allowed_.end(), kinds.begin(), kinds.end());
+    }
+    ~Allowing() { session.allowed_.resize(before); }
+    Allowing(const Allowing&) = delete;
+    Allowing& operator=(const Allowing&) = delete;
+    Session& session;
+    std::size_t before;
+  };
+
+  // One step outwards from expanded text: the call of `name` at `span`.
+  struct Expanding {
+    Expanding(Session& owner, std::string_view name, Span span);
+    ~Expanding();
+    Expanding(const Expanding&) = delete;
+    Expanding& operator=(const Expanding&) = delete;
+    Session& session;
+    ir::OriginId before;
+  };
+  [[nodiscard]] bool expanding() const { return !expansions_.empty(); }
+  [[nodiscard]] ir::OriginId add_origin(Span span);
+
+  // ---- budgets
+  // False when the budget is used up (reported once); loops then end.
+  bool spend(std::uint64_t steps, Span where) {
+    steps_ += steps;
+    return steps_ <= max_evaluation_steps || exhausted(where);
+  }
+  [[nodiscard]] bool out_of_steps() const { return steps_ > max_evaluation_steps; }
+  // Counts a placed item or light; false when there are too many (reported once).
+  bool count_item(Span where);
+  [[nodiscard]] std::uint64_t item_count() const { return items_; }
+
+  // ---- files
+  // The asset a path written in `file` names; invalid (reported at `span`) when it cannot be read.
+  ir::AssetId asset(std::string_view path, FileId file, Span span);
+  // `path` as the file system opens it, seen from the file that names it.
+  [[nodiscard]] std::string resolved_path(std::string_view path, FileId file) const;
+
+ private:
+  bool exhausted(Span where);
+
+  struct Expansion {
+    std::string_view name;
+    Span span;
+  };
+  int checking_ = 0;
+  std::vector<DiagnosticKind> allowed_;
+  std::vector<Expansion> expansions_;
+  ir::OriginId expansion_origin_;
+  std::uint64_t steps_ = 0;
+  std::uint64_t items_ = 0;
+  bool exhaustion_reported_ = false;
+  std::unordered_map<std::string, ir::AssetId> assets_;
+};
+
+// A diagnostic about a name nobody knows: "did you mean" and the legal names.
+[[nodiscard]] Diagnostic unknown_word(DiagnosticKind kind, Span span, std::string message, std::string_view word,
+                                      std::span<const std::string_view> legal, std::string_view legal_title);
+
+}  // namespace scenec::frontend
