@@ -112,9 +112,15 @@ std::uint32_t missing_semicolon(const Place& place) {
   if (place.at_end() && !builder.openers().empty()) return place.offset;
   if (ends || (place.begins_line() && !is_unknown_character(place) && !place.is_any_of(")]"))) {
     const Span where = builder.span(place.before, place.before);
-    builder.report(place.offset, Diagnostic(DiagnosticKind::semicolon_missing, where,
-                                            fmt::format("expected `;`{}, found {}", after(builder), scan::found(place.text, place.offset)))
-                                     .fix(where, ";"));
+    Diagnostic diagnostic = Diagnostic(DiagnosticKind::semicolon_missing, where,
+                                       fmt::format("expected `;`{}, found {}", after(builder), scan::found(place.text, place.offset)))
+                                .fix(where, ";");
+    // A `}` without a block is a mistake of its own.
+    if (place.next() == '}' && builder.openers().empty()) {
+      builder.report(std::move(diagnostic));
+    } else {
+      builder.report(place.offset, std::move(diagnostic));
+    }
     return place.offset;
   }
   Diagnostic diagnostic = unexpected(place, "`;`");
@@ -398,7 +404,7 @@ std::uint32_t resume_after(TreeBuilder& builder, std::uint32_t broken_at, std::u
     if (c == '{') {
       end = block_end(builder, offset);
       const std::uint32_t next = skip(builder, end);
-      done = text.substr(next, scan::token_end(text, next) - next) != "else";
+      done = open_brackets == 0 && text.substr(next, scan::token_end(text, next) - next) != "else";
       continue;
     }
     end = static_cast<std::uint32_t>(scan::token_end(text, offset));

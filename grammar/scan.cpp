@@ -41,8 +41,8 @@ std::size_t numeral_end(std::string_view text, std::size_t offset) {
 }
 
 std::size_t code_point_end(std::string_view text, std::size_t offset) {
-  ++offset;
-  while (offset < text.size() && (static_cast<unsigned char>(text[offset]) & 0xC0u) == 0x80u) ++offset;
+  const bool leads = static_cast<unsigned char>(text[offset++]) >= 0xC0;
+  while (leads && offset < text.size() && (static_cast<unsigned char>(text[offset]) & 0xC0u) == 0x80u) ++offset;
   return offset;
 }
 

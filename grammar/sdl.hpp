@@ -5,6 +5,24 @@
 
 #include "grammar/lexical.hpp"
 
+namespace scenec::grammar {
+
+namespace sdl {
+struct item_body;
+}
+// Where no item begins the item is given up, and skipping always moves on: for the analysis of
+// loops this one consumes.
+template <>
+struct missing<sdl::item_body> {
+  using rule_t = missing;
+  using subs_t = peg::type_list<>;
+
+  template <class Input>
+  [[nodiscard]] static bool match(Input&) { return true; }
+};
+
+}  // namespace scenec::grammar
+
 namespace scenec::grammar::sdl {
 
 using Kind = SyntaxKind;
@@ -204,3 +222,8 @@ struct bad_color : peg::seq<peg::one<'#'>, peg::star<peg::identifier_other>, tri
 struct callable : peg::success {};
 
 }  // namespace scenec::grammar::sdl
+
+namespace tao::pegtl {
+template <class Name>
+struct analyze_traits<Name, scenec::grammar::missing<scenec::grammar::sdl::item_body>> : analyze_any_traits<> {};
+}  // namespace tao::pegtl
