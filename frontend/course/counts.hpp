@@ -16,7 +16,7 @@ struct Count {
   std::size_t found = 0;
 
   void state(const Entry& entry) { stated = entry.numbers.front(); }
-  // `what` in the plural. A block without its count is an error unless a count with wrong values
+  // `what` in the singular. A block without its count is an error unless a count with wrong values
   // was reported.
   void check(Context& context, std::string_view word, std::string_view what, const BlockReader& reader,
              Span block_word = {}) const {
@@ -28,8 +28,8 @@ struct Count {
     }
     if (stated->value == static_cast<double>(found) || reader.had_unknown()) return;
     context.sink.report(Diagnostic(DiagnosticKind::course_wrong_count, stated->span,
-                                   fmt::format("`{}` is {}, but {} {} {}", word, short_number_text(stated->value), found,
-                                               what, found == 1 ? "follows" : "follow"))
+                                   fmt::format("`{}` is {}, but there {} {} {}{}", word, short_number_text(stated->value),
+                                               found == 1 ? "is" : "are", found, what, found == 1 ? "" : "s"))
                             .fix(stated->span, std::to_string(found)));
   }
 };

@@ -37,7 +37,7 @@ void Lights::read(const Entry& block, Place place) {
       lights_.push_back({*entry, Fields(context_, *entry, Place::light, {})});
     }
   }
-  count.check(context_, place == Place::lights ? "numLights" : "numDiskLights", "lights", reader, block.word_span);
+  count.check(context_, place == Place::lights ? "numLights" : "numDiskLights", "light", reader, block.word_span);
 }
 
 void Lights::write(Text& out, bool inverse_pi) {

@@ -63,7 +63,7 @@ void Materials::read_textures(const Entry& block) {
       textures_.push_back(read_texture(*entry));
     }
   }
-  count.check(context_, "numTextures", "textures", reader, block.word_span);
+  count.check(context_, "numTextures", "texture", reader, block.word_span);
 }
 
 void Materials::read(const Entry& block) {
@@ -77,7 +77,7 @@ void Materials::read(const Entry& block) {
       read_one(*entry);
     }
   }
-  count.check(context_, "numMaterials", "materials", reader, block.word_span);
+  count.check(context_, "numMaterials", "material", reader, block.word_span);
 }
 
 void Materials::read_one(const Entry& block) {

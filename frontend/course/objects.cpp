@@ -52,7 +52,7 @@ void Objects::write_members(const Entry& group, const Target& target) {
         write_object(*entry, target);
     }
   }
-  if (!from_file) count.check(context_, "numObjects", "objects", reader, group.word_span);
+  if (!from_file) count.check(context_, "numObjects", "object", reader, group.word_span);
 }
 
 void Objects::set_material(const Entry& entry) {
@@ -69,8 +69,8 @@ void Objects::set_material(const Entry& entry) {
   context_.error(DiagnosticKind::course_material_index, material_span_,
                  materials_.size() == 0
                      ? std::string("there is no `Materials` block before this group")
-                     : fmt::format("there is no material {}; the {} material{} are counted from 0",
-                                   short_number_text(index), materials_.size(), materials_.size() == 1 ? "" : "s"));
+                     : fmt::format("there is no material {}; the last one is {}, counted from 0",
+                                   short_number_text(index), materials_.size() - 1));
 }
 
 void Objects::write_object(const Entry& entry, const Target& target) {

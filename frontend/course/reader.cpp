@@ -35,6 +35,12 @@ bool is_slip(std::string_view word, std::string_view name) {
   return front + back + 2 >= std::max(word.size(), name.size());
 }
 
+Values form_of(const Entry& entry) {
+  if (!entry.name.empty()) return Values::word;
+  if (entry.numbers.empty()) return Values::flag;
+  return entry.numbers.size() == 1 ? Values::number : Values::vec3;
+}
+
 std::string found_text(const Entry& entry) {
   if (!entry.points.empty()) return "points in brackets";
   if (!entry.numbers.empty()) {
@@ -263,7 +269,16 @@ bool BlockReader::read_values(Entry& entry) {
   }
 }
 
-void BlockReader::report_wrong_values(const Entry& entry) {
+void BlockReader::report_wrong_values(Entry& entry) {
+  // `radius one`: a word that means nothing here stands in the place of a value.
+  if (at(SyntaxKind::course_word) && find_word(place_, elements_[at_].text()) == nullptr) {
+    const NodeRef culprit = elements_[at_];
+    skip_unknown_values();
+    context_.error(DiagnosticKind::course_wrong_values, culprit.span(),
+                   fmt::format("`{}` stands in the values of `{}`, which takes {}", printable(culprit.text()),
+                               entry.word->text, text_of(entry.word->values)));
+    return;
+  }
   Span where = entry.numbers.empty() ? entry.word_span : entry.values_span();
   if (!where.valid()) where = entry.word_span;
   context_.error(DiagnosticKind::course_wrong_values, where,
@@ -276,7 +291,7 @@ void BlockReader::note_use(const Entry& entry) {
   context_.vocabulary = std::max(context_.vocabulary, word.vocabulary);
   if (word.treat == Treat::chosen) {
     context_.warn_once(DiagnosticKind::course_chosen_reading, word.text, entry.word_span,
-                       fmt::format("`{}` has several readings; read as: {}", word.text, word.reading));
+                       fmt::format("`{}` has several readings; read as: {}", word.text, reading_for(word, form_of(entry))));
   } else if (word.treat == Treat::ignored) {
     context_.warn_once(DiagnosticKind::course_ignored_word, word.text, entry.word_span,
                        fmt::format("`{}` has no effect: {}", word.text, word.reading));

@@ -59,7 +59,7 @@ class BlockReader {
   void read_name(Entry& entry);
   bool read_block(Entry& entry);
   bool read_values(Entry& entry);
-  void report_wrong_values(const Entry& entry);
+  void report_wrong_values(Entry& entry);
   void note_use(const Entry& entry);
 
   Context& context_;

@@ -1,5 +1,6 @@
 #include "frontend/course/words.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <unordered_map>
@@ -13,21 +14,25 @@ namespace {
 constexpr std::size_t place_count = static_cast<std::size_t>(Place::transform) + 1;
 
 constexpr Word make_word(Place place, std::string_view text, Role role, Values values,
-                         Vocabulary vocabulary, Treat treat, std::string_view reading) {
-  return {place, text, role, values, vocabulary, treat, reading};
+                         Vocabulary vocabulary, Treat treat, std::string_view reading,
+                         std::string_view found) {
+  return {place, text, role, values, vocabulary, treat, reading, found};
 }
 
 constexpr std::array words = [] {
   using enum Values;
   return std::array{
 // `Place::x` and the like: the rows name enumerators, some of which several enumerations share.
-#define SCENEC_COURSE_WORD(place, text, role, values, vocabulary, treat, reading)          \
+#define SCENEC_COURSE_WORD(place, text, role, values, vocabulary, treat, reading, found)   \
   make_word(Place::place, text, Role::role, values, Vocabulary::vocabulary, Treat::treat, \
-            reading),
+            reading, found),
 #include "frontend/course/words.def"
 #undef SCENEC_COURSE_WORD
   };
 }();
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> reading_forms{{
+    {"flag: ", "alone"}, {"number: ", "a number"}, {"vec3: ", "3 numbers"}, {"word: ", "a word"}}};
 
 using PlaceIndex = std::unordered_map<std::string_view, const Word*>;
 
@@ -38,6 +43,25 @@ const std::array<PlaceIndex, place_count>& index_of_words() {
     return made;
   }();
   return index;
+}
+
+// `vec3: a|number: b` as the manual says it: `3 numbers: a; a number: b`.
+std::string manual_text_of(std::string_view reading) {
+  std::string text;
+  for (std::size_t at = 0; at < reading.size();) {
+    const std::size_t bar = std::min(reading.find('|', at), reading.size());
+    std::string_view part = reading.substr(at, bar - at);
+    if (!text.empty()) text += "; ";
+    for (const auto& [form, name] : reading_forms) {
+      if (!part.starts_with(form)) continue;
+      part.remove_prefix(form.size());
+      text += name;
+      text += ": ";
+    }
+    text += part;
+    at = bar + 1;
+  }
+  return text;
 }
 
 bool is_object(const Word& word) {
@@ -97,6 +121,19 @@ std::vector<std::string_view> words_of(Place place) {
   return texts;
 }
 
+std::string_view reading_for(const Word& word, Values form) {
+  std::string_view rest = word.reading;
+  if (rest.find('|') == std::string_view::npos) return rest;
+  const auto wanted = form == Values::flag ? 0u : form == Values::number ? 1u : form == Values::vec3 ? 2u : 3u;
+  while (!rest.empty()) {
+    const std::size_t bar = std::min(rest.find('|'), rest.size());
+    const std::string_view part = rest.substr(0, bar);
+    if (part.starts_with(reading_forms[wanted].first)) return part.substr(reading_forms[wanted].first.size());
+    rest.remove_prefix(std::min(bar + 1, rest.size()));
+  }
+  return word.reading;
+}
+
 std::string words_markdown() {
   static constexpr std::array<std::string_view, 4> vocabularies{"base", "extension", "Whitted", "path"};
   static constexpr std::array<std::string_view, 3> treats{"", "chosen reading (warned): ", "not used (warned): "};
@@ -105,7 +142,7 @@ std::string words_markdown() {
     const auto place = static_cast<Place>(i);
     text += "### In ";
     text += name_of(place);
-    text += "\n\n| word | takes | vocabulary | reading |\n|---|---|---|---|\n";
+    text += "\n\n| word | takes | vocabulary | reading | found |\n|---|---|---|---|---|\n";
     for (const Word& word : words) {
       if (word.place != place) continue;
       text += "| `";
@@ -114,7 +151,9 @@ std::string words_markdown() {
       text += vocabularies[static_cast<std::size_t>(word.vocabulary)];
       text += " | ";
       text += treats[static_cast<std::size_t>(word.treat)];
-      text += word.reading;
+      text += manual_text_of(word.reading);
+      text += " | ";
+      text += word.found;
       text += " |\n";
     }
     text += '\n';

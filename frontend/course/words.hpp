@@ -77,11 +77,14 @@ struct Word {
   Vocabulary vocabulary;
   Treat treat;
   std::string_view reading;
+  std::string_view found;  // lineage and number of repositories, for the manual
 };
 
 [[nodiscard]] std::span<const Word> all_words();
 // The word of a place, or null. In a transform the objects of a group are words too.
 [[nodiscard]] const Word* find_word(Place place, std::string_view text);
 [[nodiscard]] std::vector<std::string_view> words_of(Place place);
+// The reading of a word followed by such values.
+[[nodiscard]] std::string_view reading_for(const Word& word, Values form);
 
 }  // namespace scenec::frontend::course
