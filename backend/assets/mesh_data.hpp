@@ -50,7 +50,8 @@ struct MeshData {
 
   std::vector<TriangleIndices> triangles;  // into `positions`
   // Into `normals` and `uvs`. Empty, with `normals` (`uvs`) not empty: they go with the positions
-  // one to one. Otherwise as long as `triangles`; a triangle has three indices or `no_index` thrice.
+  // one to one. Otherwise as long as `triangles`; a triangle has three indices or `no_index`
+  // thrice.
   std::vector<TriangleIndices> normal_triangles;
   std::vector<TriangleIndices> uv_triangles;
   std::vector<std::uint32_t> triangle_lines;  // source line of each triangle; empty: binary file

@@ -18,8 +18,8 @@ int least_values_of(std::string_view option) {
   for (const std::string_view name : {"-o", "-s", "-t"}) {
     if (option == name) return 1;  // up to three
   }
-  for (const std::string_view name : {"-blendu", "-blendv", "-bm", "-boost", "-cc", "-clamp",
-                                      "-imfchan", "-texres", "-type"}) {
+  for (const std::string_view name :
+       {"-blendu", "-blendv", "-bm", "-boost", "-cc", "-clamp", "-imfchan", "-texres", "-type"}) {
     if (option == name) return 1;
   }
   return option == "-mm" ? 2 : -1;
@@ -47,8 +47,7 @@ std::string_view map_file(WordCursor cursor) {
 class MtlReader {
  public:
   MtlReader(std::string_view bytes, const MeshLimits& limits)
-      : limits_(limits),
-        scanner_(bytes, limits.line_bytes, LineScanner::Continuation::backslash) {}
+      : limits_(limits), scanner_(bytes, limits.line_bytes, LineScanner::Continuation::backslash) {}
 
   Result<MtlLibrary, AssetProblem> run() {
     std::string_view line;
@@ -131,8 +130,8 @@ class MtlReader {
   bool finish(std::string_view keyword, WordCursor& cursor) {
     double ignored = 0;
     if (WordCursor(cursor).number(ignored) != NumberProblem::none) return true;
-    return fail(fmt::format("unexpected `{}` behind `{}`", printable(cursor.rest(), shown_text),
-                            keyword));
+    return fail(
+        fmt::format("unexpected `{}` behind `{}`", printable(cursor.rest(), shown_text), keyword));
   }
 
   bool number(std::string_view keyword, WordCursor& cursor, std::optional<double>& target) {

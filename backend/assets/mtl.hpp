@@ -17,7 +17,7 @@ namespace scenec::backend {
 
 struct MtlMaterial {
   std::string name;
-  std::uint64_t line = 0;  // of `newmtl`
+  std::uint64_t line = 0;                         // of `newmtl`
   std::optional<std::array<double, 3>> diffuse;   // Kd
   std::optional<std::array<double, 3>> specular;  // Ks
   std::optional<std::array<double, 3>> emission;  // Ke

@@ -44,8 +44,7 @@ struct IndexSpace {
 class ObjReader {
  public:
   ObjReader(std::string_view bytes, const MeshLimits& limits)
-      : limits_(limits),
-        scanner_(bytes, limits.line_bytes, LineScanner::Continuation::backslash) {}
+      : limits_(limits), scanner_(bytes, limits.line_bytes, LineScanner::Continuation::backslash) {}
 
   Result<MeshData, AssetProblem> run() {
     std::string_view line;
@@ -61,7 +60,8 @@ class ObjReader {
       return Failure{std::move(problem_)};
     }
     if (faces_.sizes.empty()) {
-      return Failure{AssetProblem{0, fmt::format("no face (`f`) in {} lines", scanner_.line() - 1)}};
+      return Failure{
+          AssetProblem{0, fmt::format("no face (`f`) in {} lines", scanner_.line() - 1)}};
     }
     pad(faces_.corner_normals);
     pad(faces_.corner_uvs);
@@ -272,8 +272,8 @@ class ObjReader {
     if (size < 3) return fail(fmt::format("face with {} corners; needs at least 3", size));
     if (!part_open_) open_part();
     faces_.sizes.push_back(size);
-    faces_.lines.push_back(static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(scanner_.line(), no_index)));
+    faces_.lines.push_back(
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(scanner_.line(), no_index)));
     return true;
   }
 
@@ -294,9 +294,8 @@ class ObjReader {
 
   bool check_forward(const IndexSpace& space, std::size_t count) {
     if (space.farthest <= count) return true;
-    problem_ = {space.farthest_line,
-                fmt::format("face index {} is beyond the {} {} of the file", space.farthest, count,
-                            space.noun)};
+    problem_ = {space.farthest_line, fmt::format("face index {} is beyond the {} {} of the file",
+                                                 space.farthest, count, space.noun)};
     return false;
   }
 

@@ -6,12 +6,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "backend/assets/ply_body.hpp"
 #include "backend/assets/ply_header.hpp"
 #include "backend/assets/text_scan.hpp"
 #include "backend/assets/triangulate.hpp"
@@ -22,118 +21,6 @@ namespace {
 
 constexpr std::size_t shown_text = 40;
 constexpr std::uint64_t most_vertices = 0xFFFF'FFFE;
-
-enum class RowProblem : std::uint8_t { none, truncated, unparsable, not_whole, list_too_long, extra };
-
-// Values of an ascii body: one row a line, blank lines between rows allowed.
-class AsciiBody {
- public:
-  AsciiBody(std::string_view bytes, std::uint64_t first_line, const MeshLimits& limits)
-      : scanner_(bytes, limits.line_bytes, LineScanner::Continuation::none),
-        first_line_(first_line) {}
-
-  RowProblem begin_row() {
-    std::string_view line;
-    do {
-      if (!scanner_.next(line)) return RowProblem::truncated;
-      cursor_ = WordCursor(line);
-      cursor_.skip_blanks();
-    } while (cursor_.position() == cursor_.end());
-    return RowProblem::none;
-  }
-  RowProblem end_row() {
-    cursor_.skip_blanks();
-    return cursor_.position() == cursor_.end() ? RowProblem::none : RowProblem::extra;
-  }
-  RowProblem value(PlyType type, double& value) {
-    switch (cursor_.number(value)) {
-      case NumberProblem::none:
-        break;
-      case NumberProblem::missing:
-        return RowProblem::truncated;
-      case NumberProblem::not_finite:
-        value = std::numeric_limits<double>::infinity();
-        static_cast<void>(cursor_.word());
-        break;
-      case NumberProblem::unparsable:
-        return RowProblem::unparsable;
-    }
-    return is_real(type) || std::trunc(value) == value ? RowProblem::none : RowProblem::not_whole;
-  }
-  // Every item takes at least two bytes of the line (the last one a byte).
-  [[nodiscard]] bool can_hold(double count, PlyType) const {
-    return count * 2 <= static_cast<double>(cursor_.end() - cursor_.position()) + 1;
-  }
-  RowProblem skip(double count, PlyType type) {
-    double ignored = 0;
-    for (double i = 0; i < count; ++i) {
-      if (const RowProblem problem = value(type, ignored); problem != RowProblem::none) {
-        return problem;
-      }
-    }
-    return RowProblem::none;
-  }
-  [[nodiscard]] std::uint64_t line() const { return first_line_ + scanner_.line() - 1; }
-  [[nodiscard]] std::size_t rest() const {
-    const bool blank = std::ranges::all_of(scanner_.rest(),
-                                           [](char c) { return is_blank(c) || c == '\n'; });
-    return blank ? 0 : scanner_.rest().size();
-  }
-
- private:
-  LineScanner scanner_;
-  std::uint64_t first_line_;
-  WordCursor cursor_{std::string_view{}};
-};
-
-// Values of a binary body. `swapped`: its byte order is not the machine's.
-class BinaryBody {
- public:
-  BinaryBody(std::string_view bytes, bool swapped) : rest_(bytes), swapped_(swapped) {}
-
-  RowProblem begin_row() { return RowProblem::none; }
-  RowProblem end_row() { return RowProblem::none; }
-  RowProblem value(PlyType type, double& value) {
-    if (rest_.size() < size_of(type)) return RowProblem::truncated;
-    switch (type) {
-      case PlyType::int8: value = take<std::int8_t, std::uint8_t>(); break;
-      case PlyType::uint8: value = take<std::uint8_t, std::uint8_t>(); break;
-      case PlyType::int16: value = take<std::int16_t, std::uint16_t>(); break;
-      case PlyType::uint16: value = take<std::uint16_t, std::uint16_t>(); break;
-      case PlyType::int32: value = take<std::int32_t, std::uint32_t>(); break;
-      case PlyType::uint32: value = take<std::uint32_t, std::uint32_t>(); break;
-      case PlyType::float32: value = static_cast<double>(take<float, std::uint32_t>()); break;
-      case PlyType::float64: value = take<double, std::uint64_t>(); break;
-    }
-    return RowProblem::none;
-  }
-  [[nodiscard]] bool can_hold(double count, PlyType type) const {
-    return count * static_cast<double>(size_of(type)) <= static_cast<double>(rest_.size());
-  }
-  RowProblem skip(double count, PlyType type) {
-    rest_.remove_prefix(static_cast<std::size_t>(count) * size_of(type));
-    return RowProblem::none;
-  }
-  [[nodiscard]] std::uint64_t line() const { return 0; }
-  [[nodiscard]] std::size_t rest() const { return rest_.size(); }
-
- private:
-  template <class T, class Bits>
-  T take() {
-    Bits bits;
-    std::memcpy(&bits, rest_.data(), sizeof bits);
-    rest_.remove_prefix(sizeof bits);
-    if (swapped_) {
-      if constexpr (sizeof bits == 2) bits = __builtin_bswap16(bits);
-      if constexpr (sizeof bits == 4) bits = __builtin_bswap32(bits);
-      if constexpr (sizeof bits == 8) bits = __builtin_bswap64(bits);
-    }
-    return std::bit_cast<T>(bits);
-  }
-
-  std::string_view rest_;
-  bool swapped_;
-};
 
 // What a vertex property is for; texture coordinates go by several names.
 enum class Role : std::uint8_t { none, x, y, z, nx, ny, nz, u, v };
@@ -167,13 +54,13 @@ class PlyReader {
     }
     if (body_.rest() != 0) {
       return Failure{AssetProblem{
-          0, fmt::format("{} bytes follow the last element; counts and body disagree",
-                         body_.rest())}};
+          0,
+          fmt::format("{} bytes follow the last element; counts and body disagree", body_.rest())}};
     }
     if (farthest_ >= mesh_.positions.size()) {
-      return Failure{AssetProblem{farthest_line_,
-                                  fmt::format("face index {} is beyond the {} vertices", farthest_,
-                                              mesh_.positions.size())}};
+      return Failure{
+          AssetProblem{farthest_line_, fmt::format("face index {} is beyond the {} vertices",
+                                                   farthest_, mesh_.positions.size())}};
     }
     if (auto problem = triangulate(faces_, limits_, mesh_)) return Failure{std::move(*problem)};
     return std::move(mesh_);
@@ -181,7 +68,8 @@ class PlyReader {
 
  private:
   bool fail(const PlyElement& element, std::uint64_t row, std::string_view what) {
-    problem_ = {body_.line(), fmt::format("{} {}: {}", printable(element.name, shown_text), row, what)};
+    problem_ = {body_.line(),
+                fmt::format("{} {}: {}", printable(element.name, shown_text), row, what)};
     return false;
   }
 
@@ -189,11 +77,16 @@ class PlyReader {
     switch (problem) {
       case RowProblem::truncated:
         return fail(element, row, "values are missing; the file or the row ends too early");
-      case RowProblem::unparsable: return fail(element, row, "value is not a number");
-      case RowProblem::not_whole: return fail(element, row, "value is not a whole number");
-      case RowProblem::list_too_long: return fail(element, row, "list is longer than what follows");
-      case RowProblem::extra: return fail(element, row, "more values than properties");
-      case RowProblem::none: break;
+      case RowProblem::unparsable:
+        return fail(element, row, "value is not a number");
+      case RowProblem::not_whole:
+        return fail(element, row, "value is not a whole number");
+      case RowProblem::list_too_long:
+        return fail(element, row, "list is longer than what follows");
+      case RowProblem::extra:
+        return fail(element, row, "more values than properties");
+      case RowProblem::none:
+        break;
     }
     return true;
   }
@@ -317,8 +210,9 @@ class PlyReader {
     if (problem != RowProblem::none) return fail(element, row, problem);
     if (count < 3) return fail(element, row, fmt::format("{} corners; needs at least 3", count));
     if (count > limits_.polygon_vertices) {
-      return fail(element, row,
-                  fmt::format("{} corners; at most {} are allowed", count, limits_.polygon_vertices));
+      return fail(
+          element, row,
+          fmt::format("{} corners; at most {} are allowed", count, limits_.polygon_vertices));
     }
     const auto size = static_cast<std::uint32_t>(count);
     for (std::uint32_t i = 0; i < size; ++i) {
@@ -380,7 +274,8 @@ Result<MeshData, AssetProblem> read_ply(std::string_view bytes, const MeshLimits
   if (auto problem = find_missing_element(header.value())) return Failure{std::move(*problem)};
   const std::string_view body = bytes.substr(header.value().body_offset);
   if (header.value().format == PlyFormat::ascii) {
-    return PlyReader(header.value(), AsciiBody(body, header.value().body_line, limits), limits).run();
+    return PlyReader(header.value(), AsciiBody(body, header.value().body_line, limits), limits)
+        .run();
   }
   const bool little = header.value().format == PlyFormat::binary_little_endian;
   const bool swapped = little != (std::endian::native == std::endian::little);

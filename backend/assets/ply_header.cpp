@@ -24,8 +24,8 @@ std::optional<PlyType> find_type(std::string_view word) {
     std::string_view old_name;
     std::string_view new_name;
   };
-  constexpr Row rows[] = {{"char", "int8"},   {"uchar", "uint8"}, {"short", "int16"},
-                          {"ushort", "uint16"}, {"int", "int32"},   {"uint", "uint32"},
+  constexpr Row rows[] = {{"char", "int8"},     {"uchar", "uint8"},   {"short", "int16"},
+                          {"ushort", "uint16"}, {"int", "int32"},     {"uint", "uint32"},
                           {"float", "float32"}, {"double", "float64"}};
   for (std::size_t i = 0; i < std::size(rows); ++i) {
     if (word == rows[i].old_name || word == rows[i].new_name) return static_cast<PlyType>(i);
@@ -100,8 +100,7 @@ class HeaderReader {
     element.name = cursor.word();
     element.line = scanner_.line();
     const std::string_view count = cursor.word();
-    const auto result =
-        std::from_chars(count.data(), count.data() + count.size(), element.count);
+    const auto result = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (count.empty() || result.ec != std::errc{} || result.ptr != count.data() + count.size()) {
       return fail(fmt::format("count of element `{}` is `{}`; needs a whole number from 0",
                               printable(element.name, shown_text), printable(count, shown_text)));

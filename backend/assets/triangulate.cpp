@@ -17,15 +17,21 @@ namespace {
 using Vec3 = std::array<double, 3>;
 using Vec2 = std::array<double, 2>;
 
-Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vec3 difference(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 
 Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-bool is_zero(const Vec3& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
+bool is_zero(const Vec3& a) {
+  return a[0] == 0 && a[1] == 0 && a[2] == 0;
+}
 
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vec3& a, const Vec3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 double largest_component(const Vec3& a) {
   return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
@@ -68,10 +74,10 @@ class Triangulator {
       if (size == 3) {
         emit(first_corner, 0, 1, 2, face);
       } else if (!add_polygon(first_corner, size, face)) {
-        return AssetProblem{line_of(face),
-                            fmt::format("the concave polygons up to this one, with {} corners, cost "
-                                        "more than {} tests to cut into triangles; split it",
-                                        size, limits_.ear_tests)};
+        return AssetProblem{
+            line_of(face), fmt::format("the concave polygons up to this one, with {} corners, cost "
+                                       "more than {} tests to cut into triangles; split it",
+                                       size, limits_.ear_tests)};
       }
       if (mesh_.triangles.size() == before) drop(first_corner, size, face);
       first_corner += size;
@@ -112,7 +118,8 @@ class Triangulator {
     for (std::size_t i = 0; i < mesh_.parts.size(); ++i) {
       const std::size_t end =
           i + 1 < mesh_.parts.size() ? mesh_.parts[i + 1].first_triangle : mesh_.triangles.size();
-      mesh_.parts[i].triangle_count = static_cast<std::uint32_t>(end) - mesh_.parts[i].first_triangle;
+      mesh_.parts[i].triangle_count =
+          static_cast<std::uint32_t>(end) - mesh_.parts[i].first_triangle;
     }
     std::erase_if(mesh_.parts, [](const MeshPart& part) { return part.triangle_count == 0; });
   }
@@ -124,7 +131,8 @@ class Triangulator {
       return TriangleIndices{table[first + i], table[first + j], table[first + k]};
     };
     mesh_.triangles.push_back(pick(faces_.corner_positions));
-    if (!faces_.corner_normals.empty()) mesh_.normal_triangles.push_back(pick(faces_.corner_normals));
+    if (!faces_.corner_normals.empty())
+      mesh_.normal_triangles.push_back(pick(faces_.corner_normals));
     if (!faces_.corner_uvs.empty()) mesh_.uv_triangles.push_back(pick(faces_.corner_uvs));
     if (!faces_.lines.empty()) mesh_.triangle_lines.push_back(faces_.lines[face]);
   }

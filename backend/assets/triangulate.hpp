@@ -39,7 +39,7 @@ struct FaceList {
 //
 // Fills triangles, index tables, lines, parts and dropped faces of `mesh` from `faces`; positions,
 // normals, uvs and names are already there.
-[[nodiscard]] std::optional<AssetProblem> triangulate(const FaceList& faces, const MeshLimits& limits,
-                                                      MeshData& mesh);
+[[nodiscard]] std::optional<AssetProblem> triangulate(const FaceList& faces,
+                                                      const MeshLimits& limits, MeshData& mesh);
 
 }  // namespace scenec::backend

@@ -14,10 +14,10 @@ double mean_luminance(const FloatImage& image) {
   double sum = 0;
   for (std::size_t i = 0; i + channels <= image.samples.size(); i += channels) {
     const float* pixel = &image.samples[i];
-    sum += channels < 3 ? static_cast<double>(pixel[0])
-                        : 0.2126 * static_cast<double>(pixel[0]) +
-                              0.7152 * static_cast<double>(pixel[1]) +
-                              0.0722 * static_cast<double>(pixel[2]);
+    sum += channels < 3
+               ? static_cast<double>(pixel[0])
+               : 0.2126 * static_cast<double>(pixel[0]) + 0.7152 * static_cast<double>(pixel[1]) +
+                     0.0722 * static_cast<double>(pixel[2]);
   }
   return sum * static_cast<double>(channels) / static_cast<double>(image.samples.size());
 }

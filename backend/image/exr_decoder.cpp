@@ -79,10 +79,10 @@ void read_rows(OPENEXR_IMF_NAMESPACE::InputFile& file, ExrImage& image, int left
     imf::FrameBuffer buffer;
     for (ExrPlane& plane : image.planes) {
       plane.samples.resize(static_cast<std::size_t>(end) * image.width);
-      buffer.insert(plane.name,
-                    imf::Slice::Make(imf::FLOAT, plane.samples.data(),
-                                     IMATH_NAMESPACE::V2i(left, top), std::int64_t{image.width},
-                                     std::int64_t{end}, sizeof(float), row_bytes));
+      buffer.insert(
+          plane.name,
+          imf::Slice::Make(imf::FLOAT, plane.samples.data(), IMATH_NAMESPACE::V2i(left, top),
+                           std::int64_t{image.width}, std::int64_t{end}, sizeof(float), row_bytes));
     }
     file.setFrameBuffer(buffer);
     file.readPixels(top + row, top + end - 1);

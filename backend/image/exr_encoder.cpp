@@ -52,9 +52,9 @@ struct InsertAttribute {
   void operator()(const Chromaticities& value) const {
     using V2f = IMATH_NAMESPACE::V2f;
     const auto& xy = value.xy;
-    header.insert(name, imf::ChromaticitiesAttribute(
-                            imf::Chromaticities(V2f(xy[0], xy[1]), V2f(xy[2], xy[3]),
-                                                V2f(xy[4], xy[5]), V2f(xy[6], xy[7]))));
+    header.insert(name,
+                  imf::ChromaticitiesAttribute(imf::Chromaticities(
+                      V2f(xy[0], xy[1]), V2f(xy[2], xy[3]), V2f(xy[4], xy[5]), V2f(xy[6], xy[7]))));
   }
 };
 

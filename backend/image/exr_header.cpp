@@ -26,13 +26,14 @@ struct TypeSize {
   std::string_view type;
   std::size_t size;
 };
-constexpr TypeSize fixed_sizes[] = {
-    {"box2f", 16}, {"box2i", 16},     {"chromaticities", 32}, {"compression", 1},
-    {"double", 8}, {"envmap", 1},     {"float", 4},           {"int", 4},
-    {"keycode", 28}, {"lineOrder", 1}, {"m33d", 72},          {"m33f", 36},
-    {"m44d", 128}, {"m44f", 64},      {"rational", 8},        {"tiledesc", 9},
-    {"timecode", 8}, {"v2d", 16},     {"v2f", 8},             {"v2i", 8},
-    {"v3d", 24},   {"v3f", 12},       {"v3i", 12},            {"deepImageState", 1}};
+constexpr TypeSize fixed_sizes[] = {{"box2f", 16},      {"box2i", 16},   {"chromaticities", 32},
+                                    {"compression", 1}, {"double", 8},   {"envmap", 1},
+                                    {"float", 4},       {"int", 4},      {"keycode", 28},
+                                    {"lineOrder", 1},   {"m33d", 72},    {"m33f", 36},
+                                    {"m44d", 128},      {"m44f", 64},    {"rational", 8},
+                                    {"tiledesc", 9},    {"timecode", 8}, {"v2d", 16},
+                                    {"v2f", 8},         {"v2i", 8},      {"v3d", 24},
+                                    {"v3f", 12},        {"v3i", 12},     {"deepImageState", 1}};
 
 std::uint32_t u32_at(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -46,13 +47,13 @@ std::int32_t i32_at(std::string_view bytes, std::size_t at) {
 
 class HeaderCheck {
  public:
-  HeaderCheck(std::string_view bytes, const ImageLimits& limits)
-      : bytes_(bytes), limits_(limits) {}
+  HeaderCheck(std::string_view bytes, const ImageLimits& limits) : bytes_(bytes), limits_(limits) {}
 
   std::optional<AssetProblem> run() {
     if (bytes_.size() < 8) return too_short();
     flags_ = u32_at(bytes_, 4);
-    if ((flags_ & 0xFF) != 2) return problem(fmt::format("EXR version {} is not known", flags_ & 0xFF));
+    if ((flags_ & 0xFF) != 2)
+      return problem(fmt::format("EXR version {} is not known", flags_ & 0xFF));
     if ((flags_ & flag_multipart) != 0) return problem("EXR with several parts is not supported");
     if ((flags_ & flag_deep) != 0) return problem("deep EXR is not supported");
     at_ = 8;
@@ -71,8 +72,8 @@ class HeaderCheck {
 
   // A zero-ended string at at_.
   bool text(std::string_view& found) {
-    const std::size_t end = bytes_.substr(0, std::min(bytes_.size(), at_ + longest_name + 1))
-                                .find('\0', at_);
+    const std::size_t end =
+        bytes_.substr(0, std::min(bytes_.size(), at_ + longest_name + 1)).find('\0', at_);
     if (end == std::string_view::npos) return false;
     found = bytes_.substr(at_, end - at_);
     at_ = end + 1;
@@ -132,8 +133,8 @@ class HeaderCheck {
       if (channels_.size() - list.at_ < 16) return too_short();
       if (u32_at(channels_, list.at_) > 2) return too_short();
       if (i32_at(channels_, list.at_ + 8) != 1 || i32_at(channels_, list.at_ + 12) != 1) {
-        return problem(fmt::format("EXR channel `{}` is subsampled, which is not supported",
-                                   printable(name)));
+        return problem(
+            fmt::format("EXR channel `{}` is subsampled, which is not supported", printable(name)));
       }
       list.at_ += 16;
       if (++count > most_channels) return problem("EXR with more than 1024 channels");
@@ -152,7 +153,8 @@ class HeaderCheck {
     if (width < 1 || height < 1) return problem("EXR data window is empty");
     const auto columns = static_cast<std::uint64_t>(width);
     const auto rows = static_cast<std::uint64_t>(height);
-    if (auto found = find_size_problem(columns, rows, channels * sizeof(float), limits_)) return found;
+    if (auto found = find_size_problem(columns, rows, channels * sizeof(float), limits_))
+      return found;
     const auto compression = static_cast<unsigned char>(compression_[0]);
     if (compression >= chunk_lines.size()) return problem("EXR compression is not known");
     std::uint64_t chunks = (rows + chunk_lines[compression] - 1) / chunk_lines[compression];

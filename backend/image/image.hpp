@@ -9,7 +9,7 @@
 namespace scenec::backend {
 
 enum class SampleEncoding : std::uint8_t {
-  srgb,    // colour channels carry the sRGB curve; alpha never does
+  srgb,  // colour channels carry the sRGB curve; alpha never does
   linear,
 };
 

@@ -76,8 +76,7 @@ bool read_header(PngSource& source, const ImageLimits& limits) {
   png_read_info(source.png, source.info);
   source.width = png_get_image_width(source.png, source.info);
   source.height = png_get_image_height(source.png, source.info);
-  source.stored_bytes =
-      std::uint64_t{png_get_rowbytes(source.png, source.info)} * source.height;
+  source.stored_bytes = std::uint64_t{png_get_rowbytes(source.png, source.info)} * source.height;
   if (png_get_color_type(source.png, source.info) == PNG_COLOR_TYPE_PALETTE) {
     // libpng's own expansion takes indices beyond the palette as black.
     png_get_PLTE(source.png, source.info, &source.palette, &source.palette_size);
@@ -148,11 +147,10 @@ DecodeResult decode_png(std::string_view bytes, const ImageLimits& limits) {
   source.info = png_create_info_struct(source.png);
   if (source.info == nullptr) return Failure{AssetProblem{0, "cannot start the PNG decoder"}};
   if (!read_header(source, limits)) return Failure{damaged(source)};
-  if (auto problem = find_size_problem(source.width, source.height,
-                                       source.palette != nullptr
-                                           ? 4
-                                           : std::uint64_t{source.channels} * source.sample_bytes,
-                                       limits)) {
+  if (auto problem = find_size_problem(
+          source.width, source.height,
+          source.palette != nullptr ? 4 : std::uint64_t{source.channels} * source.sample_bytes,
+          limits)) {
     return Failure{std::move(*problem)};
   }
   if (source.stored_bytes / best_deflate_ratio > bytes.size()) {

@@ -101,8 +101,8 @@ Result<std::string, AssetProblem> encode_png(const Rgb8View& image, const PngTex
   std::vector<png_text> entries;
   for (const auto& pair : text) {
     if (!is_key(pair.first) || pair.second.find('\0') != std::string::npos) {
-      return Failure{AssetProblem{
-          0, fmt::format("PNG text `{}` cannot be stored", printable(pair.first))}};
+      return Failure{
+          AssetProblem{0, fmt::format("PNG text `{}` cannot be stored", printable(pair.first))}};
     }
     entries.push_back(entry_of(pair));
   }

@@ -9,7 +9,9 @@
 namespace scenec::backend {
 namespace {
 
-constexpr bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+constexpr bool is_space(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
 
 class PnmReader {
  public:
@@ -89,7 +91,8 @@ class PnmReader {
         }
       }
       if (value > largest_) {
-        return fail(fmt::format("value {} at byte {} is above the declared {}", value, at_, largest_));
+        return fail(
+            fmt::format("value {} at byte {} is above the declared {}", value, at_, largest_));
       }
       sample = static_cast<Sample>((std::uint64_t{value} * full + largest_ / 2) / largest_);
     }

@@ -43,13 +43,14 @@ std::optional<AssetProblem> find_size_problem(std::uint64_t width, std::uint64_t
     return AssetProblem{0, fmt::format("declared size {} x {} has no pixels", width, height)};
   }
   if (width > limits.side || height > limits.side) {
-    return AssetProblem{0, fmt::format("declared size {} x {}; at most {} pixels a side are allowed",
-                                       width, height, limits.side)};
+    return AssetProblem{
+        0, fmt::format("declared size {} x {}; at most {} pixels a side are allowed", width, height,
+                       limits.side)};
   }
   if (width * height > limits.decoded_bytes / bytes_per_pixel) {
-    return AssetProblem{0, fmt::format("{} x {} pixels take {} bytes; at most {} are allowed", width,
-                                       height, width * height * bytes_per_pixel,
-                                       limits.decoded_bytes)};
+    return AssetProblem{
+        0, fmt::format("{} x {} pixels take {} bytes; at most {} are allowed", width, height,
+                       width * height * bytes_per_pixel, limits.decoded_bytes)};
   }
   return std::nullopt;
 }

@@ -80,11 +80,13 @@ struct Size {
 Result<Size, AssetProblem> read_size(Source& source, std::string_view format,
                                      std::uint64_t sample_bytes, const ImageLimits& limits) {
   Size size;
-  if (stbi_info_from_callbacks(&callbacks, &source, &size.width, &size.height, &size.channels) == 0) {
+  if (stbi_info_from_callbacks(&callbacks, &source, &size.width, &size.height, &size.channels) ==
+      0) {
     return Failure{damaged(format)};
   }
   if (size.width <= 0 || size.height <= 0 || size.channels < 1 || size.channels > 4) {
-    return Failure{AssetProblem{0, fmt::format("damaged {}: declared size makes no sense", format)}};
+    return Failure{
+        AssetProblem{0, fmt::format("damaged {}: declared size makes no sense", format)}};
   }
   const std::uint64_t pixel_bytes = static_cast<std::uint64_t>(size.channels) * sample_bytes;
   if (auto problem =
@@ -105,13 +107,13 @@ std::uint64_t byte_at(std::string_view bytes, std::size_t at) {
 }
 
 AssetProblem too_short(std::string_view format, const Size& size) {
-  return {0, fmt::format("{} file ends too early for {} x {} pixels", format, size.width,
-                         size.height)};
+  return {
+      0, fmt::format("{} file ends too early for {} x {} pixels", format, size.width, size.height)};
 }
 
 DecodeResult decode_bytes(Source& source, std::string_view format, Size size) {
-  const std::unique_ptr<stbi_uc, FreePixels> pixels(stbi_load_from_callbacks(
-      &callbacks, &source, &size.width, &size.height, &size.channels, 0));
+  const std::unique_ptr<stbi_uc, FreePixels> pixels(
+      stbi_load_from_callbacks(&callbacks, &source, &size.width, &size.height, &size.channels, 0));
   if (pixels == nullptr) return Failure{damaged(format)};
   if (source.overrun) return Failure{too_short(format, size)};
   DecodedImage image;
@@ -157,8 +159,8 @@ DecodeResult decode_hdr(std::string_view bytes, const ImageLimits& limits) {
   Size size = read.value();
   // Four run-length coded planes: at most 127 samples of one plane in two bytes.
   if (pixel_count(size) * 4 / 64 > bytes.size()) return Failure{too_short("HDR", size)};
-  const std::unique_ptr<float, FreePixels> pixels(stbi_loadf_from_callbacks(
-      &callbacks, &source, &size.width, &size.height, &size.channels, 3));
+  const std::unique_ptr<float, FreePixels> pixels(
+      stbi_loadf_from_callbacks(&callbacks, &source, &size.width, &size.height, &size.channels, 3));
   if (pixels == nullptr) return Failure{damaged("HDR")};
   if (source.overrun) return Failure{too_short("HDR", size)};
   DecodedImage image;

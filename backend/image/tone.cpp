@@ -62,7 +62,9 @@ std::uint8_t course8_of(float linear) {
   return static_cast<std::uint8_t>(linear * 255.0f);
 }
 
-double linear_of_srgb8(std::uint8_t encoded) { return decode_table[encoded]; }
+double linear_of_srgb8(std::uint8_t encoded) {
+  return decode_table[encoded];
+}
 
 double linear_of_srgb(double encoded) {
   if (!(encoded > 0)) return 0;

@@ -47,10 +47,18 @@ void read_with_random_damage(std::string_view bytes, std::uint32_t seed, int rou
     for (std::uint32_t i = 0; i < changes; ++i) {
       const std::size_t at = random() % damaged.size();
       switch (random() % 4) {
-        case 0: damaged[at] = static_cast<char>(random()); break;
-        case 1: damaged[at] = static_cast<char>(damaged[at] ^ (1 << random() % 8)); break;
-        case 2: damaged.erase(at, 1 + random() % 8); break;
-        default: damaged.insert(at, damaged.substr(random() % damaged.size(), random() % 16)); break;
+        case 0:
+          damaged[at] = static_cast<char>(random());
+          break;
+        case 1:
+          damaged[at] = static_cast<char>(damaged[at] ^ (1 << random() % 8));
+          break;
+        case 2:
+          damaged.erase(at, 1 + random() % 8);
+          break;
+        default:
+          damaged.insert(at, damaged.substr(random() % damaged.size(), random() % 16));
+          break;
       }
       if (damaged.empty()) damaged = "x";
     }

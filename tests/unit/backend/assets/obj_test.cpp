@@ -23,12 +23,14 @@ std::string problem_of(std::string_view text, const MeshLimits& limits = {}) {
 
 constexpr std::string_view square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-std::string with_square(std::string_view rest) { return std::string(square) + std::string(rest); }
+std::string with_square(std::string_view rest) {
+  return std::string(square) + std::string(rest);
+}
 
 TEST(Obj, ReadsAllCornerForms) {
-  const MeshData mesh = mesh_of(
-      with_square("vt 0 0.5\nvt 1\nvn 0 0 1\nf 1 2 3\nf 1/1 2/2 3/1\nf 1//1 2//1 3//-1\n"
-                  "f -4/1/1 -3/2/1 -2/1/1\n"));
+  const MeshData mesh =
+      mesh_of(with_square("vt 0 0.5\nvt 1\nvn 0 0 1\nf 1 2 3\nf 1/1 2/2 3/1\nf 1//1 2//1 3//-1\n"
+                          "f -4/1/1 -3/2/1 -2/1/1\n"));
   ASSERT_EQ(mesh.triangles.size(), 4u);
   for (const TriangleIndices& triangle : mesh.triangles) {
     EXPECT_EQ(triangle, (TriangleIndices{0, 1, 2}));

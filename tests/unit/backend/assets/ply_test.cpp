@@ -120,8 +120,8 @@ TEST(Ply, LocatesHeaderMistakes) {
 }
 
 TEST(Ply, BelievesNoCount) {
-  for (const std::string_view count : {"9223372036854775808", "18446744073709551615", "4294967295",
-                                       "1000"}) {
+  for (const std::string_view count :
+       {"9223372036854775808", "18446744073709551615", "4294967295", "1000"}) {
     const std::string problem =
         problem_of(replaced(ascii, "vertex 4", "vertex " + std::string(count)));
     EXPECT_TRUE(problem.starts_with("4: element `vertex` with ")) << problem;
@@ -156,7 +156,8 @@ TEST(Ply, LocatesBodyMistakes) {
   EXPECT_EQ(changed("1 1 0 2\n", "1 a 0 2\n"), "18: vertex 2: value is not a number");
   EXPECT_EQ(changed("1 1 0 2\n", "1 nan 0 2\n"), "18: vertex 2: coordinate is not finite");
   EXPECT_EQ(changed("0 3 0 1 2\n", "0 2 0 1\n"), "21: face 0: 2 corners; needs at least 3");
-  EXPECT_EQ(changed("0 3 0 1 2\n", "0 300 0 1 2\n"), "21: face 0: list is longer than what follows");
+  EXPECT_EQ(changed("0 3 0 1 2\n", "0 300 0 1 2\n"),
+            "21: face 0: list is longer than what follows");
   EXPECT_EQ(changed("0 3 0 1 2\n", "0 3 0 1 -2\n"), "21: face 0: corner 3 has the index -2");
   EXPECT_EQ(changed("1 4 0 1 2 3\n", "1 4 0 1 2 4\n"), "22: face index 4 is beyond the 4 vertices");
   EXPECT_EQ(problem_of(ascii + "1 2 3\n"),

@@ -73,7 +73,8 @@ TEST(Triangulate, CoversRandomStarPolygons) {
     std::vector<Point> polygon;
     double area = 0;
     for (std::size_t i = 0; i < size; ++i) {
-      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(size);
+      const double angle =
+          2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(size);
       const double radius = 0.1 + static_cast<double>(random() % 1000) / 1000;
       polygon.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
     }

@@ -13,7 +13,9 @@ namespace {
 using namespace std::string_literals;
 using Bytes = std::vector<std::uint8_t>;
 
-bool readable(std::string_view bytes) { return read_image(bytes, "tga").ok(); }
+bool readable(std::string_view bytes) {
+  return read_image(bytes, "tga").ok();
+}
 
 std::string problem_of(std::string_view bytes, std::string_view hint = "",
                        const ImageLimits& limits = {}) {
@@ -77,12 +79,17 @@ std::string tga_header(int type, int width, int height, int bits) {
 }
 
 const std::string tga_raw = tga_header(2, 2, 2, 24) + "abcdefghijkl";
-const std::string tga_runs = tga_header(10, 4, 2, 24) + "\x83" "abc" "\x03" "abcdefghijkl";
-const std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n"
-                        "\x80\x40\x20\x81"
-                        "\x80\x80\x80\x80"
-                        "\1\2\3\x88"
-                        "\0\0\0\0"s;
+const std::string tga_runs = tga_header(10, 4, 2, 24) +
+                             "\x83"
+                             "abc"
+                             "\x03"
+                             "abcdefghijkl";
+const std::string hdr =
+    "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n"
+    "\x80\x40\x20\x81"
+    "\x80\x80\x80\x80"
+    "\1\2\3\x88"
+    "\0\0\0\0"s;
 // Run-length coded: width 8, four planes of one run each.
 const std::string hdr_runs =
     "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n"
@@ -96,7 +103,8 @@ TEST(ReadImage, ReadsPngOfEveryKind) {
   EXPECT_EQ(rgb.encoding, SampleEncoding::srgb);
   EXPECT_EQ(bytes_of(rgb)[7], static_cast<std::uint8_t>(7 * 37));
 
-  EXPECT_EQ(bytes_of(image_of(png_file(png_header(4, 1, 2, 0), "\0\x1B"s))), (Bytes{0, 85, 170, 255}));
+  EXPECT_EQ(bytes_of(image_of(png_file(png_header(4, 1, 2, 0), "\0\x1B"s))),
+            (Bytes{0, 85, 170, 255}));
   const std::string palette = png_chunk("PLTE", "\1\2\3\4\5\6") + png_chunk("tRNS", "\x80");
   const DecodedImage indexed = image_of(png_file(png_header(2, 1, 8, 3), "\0\1\0"s, palette));
   EXPECT_EQ(bytes_of(indexed), (Bytes{4, 5, 6, 255, 1, 2, 3, 128}));
@@ -123,7 +131,9 @@ TEST(ReadImage, RefusesDamagedPng) {
   crc = png_file(header, "\0\1\2"s, png_chunk("tEXt", "a\0b"s));
   crc[crc.find("tEXt") + 4] = 'z';
   EXPECT_NE(problem_of(crc), "read") << "checksum of an unused chunk";
-  std::string length = header + "\x7F\xFF\xFF\xFF" "IDAT";
+  std::string length = header +
+                       "\x7F\xFF\xFF\xFF"
+                       "IDAT";
   EXPECT_NE(problem_of(length), "read");
 }
 
@@ -149,7 +159,8 @@ TEST(ReadImage, BelievesNoSize) {
             "TGA file ends too early for 16000 x 16000 pixels");
   EXPECT_EQ(problem_of("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 9000 +X 9000\n"),
             "HDR file ends too early for 9000 x 9000 pixels");
-  EXPECT_EQ(problem_of("P5 99999 2 255 "), "declared size 99999 x 2; at most 16384 pixels a side are allowed");
+  EXPECT_EQ(problem_of("P5 99999 2 255 "),
+            "declared size 99999 x 2; at most 16384 pixels a side are allowed");
   EXPECT_EQ(problem_of("P5 999 999 255 "), "999 x 999 pixels need 998001 bytes, 0 follow");
   EXPECT_EQ(problem_of("P5 0 2 255 "), "declared size 0 x 2 has no pixels");
   std::string jpeg = small_jpeg(16, 16);
@@ -169,7 +180,8 @@ TEST(ReadImage, HoldsItsLimits) {
   limits.decoded_bytes = 60;
   EXPECT_EQ(problem_of(small_png(), "", limits), "read");
   limits.decoded_bytes = 59;
-  EXPECT_EQ(problem_of(small_png(), "", limits), "5 x 4 pixels take 60 bytes; at most 59 are allowed");
+  EXPECT_EQ(problem_of(small_png(), "", limits),
+            "5 x 4 pixels take 60 bytes; at most 59 are allowed");
   limits.file_bytes = 10;
   EXPECT_NE(problem_of(small_png(), "", limits), "read");
 }
@@ -203,7 +215,8 @@ TEST(ReadImage, ReadsPnm) {
   EXPECT_EQ(bytes_of(image_of("P2 # gray\n2 2\n100\n0 50\n100 1")), (Bytes{0, 128, 255, 3}));
   EXPECT_EQ(bytes_of(image_of("P3 1 1 255 1 2 3 ")), (Bytes{1, 2, 3}));
   EXPECT_EQ(bytes_of(image_of("P6\n1 2\n255\nabcdef")), (Bytes{'a', 'b', 'c', 'd', 'e', 'f'}));
-  EXPECT_EQ(std::get<std::vector<std::uint16_t>>(image_of("P5 1 1 65535 \x12\x34").samples)[0], 0x1234);
+  EXPECT_EQ(std::get<std::vector<std::uint16_t>>(image_of("P5 1 1 65535 \x12\x34").samples)[0],
+            0x1234);
   EXPECT_EQ(problem_of("P5 1 1 100 \x65"), "value 101 at byte 12 is above the declared 100");
   EXPECT_EQ(problem_of("P2 2 2 9 1 2 3"), "2 x 2 pixels need 7 bytes, 5 follow");
   EXPECT_EQ(problem_of("P4 8 1 a"), "bilevel PBM is not supported");
@@ -231,8 +244,8 @@ TEST(ReadImage, RefusesWhatItDoesNotKnow) {
 
 TEST(ReadImage, RefusesEveryPrefix) {
   const std::pair<const char*, std::string> files[] = {
-      {"png", small_png()},   {"bmp", small_bmp()},     {"exr", small_exr()},
-      {"tga raw", tga_raw},   {"tga runs", tga_runs},   {"hdr", hdr},
+      {"png", small_png()},   {"bmp", small_bmp()},       {"exr", small_exr()},
+      {"tga raw", tga_raw},   {"tga runs", tga_runs},     {"hdr", hdr},
       {"hdr runs", hdr_runs}, {"pgm", "P5 2 2 255 abcd"}, {"ppm", "P3 1 1 255 1 2 3"}};
   for (const auto& [name, bytes] : files) {
     EXPECT_TRUE(readable(bytes)) << name;

@@ -40,7 +40,8 @@ TEST(Tone, AgreesWithTheEncodingFormula) {
 }
 
 TEST(Tone, GivesBackEveryByte) {
-  for (int i = 0; i < 256; ++i) EXPECT_EQ(srgb8_of(linear_of_srgb8(static_cast<std::uint8_t>(i))), i);
+  for (int i = 0; i < 256; ++i)
+    EXPECT_EQ(srgb8_of(linear_of_srgb8(static_cast<std::uint8_t>(i))), i);
 }
 
 TEST(Tone, PutsWhatIsOutOfRangeAtTheEnds) {

@@ -38,7 +38,8 @@ TEST(WriteImage, PngGivesBackItsSamples) {
 TEST(WriteImage, PngCarriesItsTextsAndNoTime) {
   const Bytes rgb = noise(3);
   const std::string bytes =
-      encode_png({1, 1, rgb}, {{"Software", "scenec"}, {"scenec/seed", "7"}, {"Author", "Zo\xC3\xAB"}})
+      encode_png({1, 1, rgb},
+                 {{"Software", "scenec"}, {"scenec/seed", "7"}, {"Author", "Zo\xC3\xAB"}})
           .value();
   EXPECT_NE(bytes.find(std::string("tEXtSoftware\0scenec", 19)), std::string::npos);
   EXPECT_NE(bytes.find("iTXtAuthor"), std::string::npos);
@@ -52,10 +53,10 @@ TEST(WriteImage, PngCarriesItsTextsAndNoTime) {
 TEST(WriteImage, BmpHasTheCoursesLayout) {
   const Bytes rgb = noise(200 * 200 * 3);
   const std::string bytes = encode_bmp({200, 200, rgb}).value();
-  const unsigned char header[54] = {
-      0x42, 0x4D, 0xF6, 0xD4, 0x01, 0x00, 0, 0, 0, 0, 0x36, 0, 0, 0, 0x28, 0, 0, 0,
-      0xC8, 0,    0,    0,    0xC8, 0,    0, 0, 1, 0, 0x18, 0, 0, 0, 0,    0, 0xC0, 0xD4,
-      0x01, 0x00};
+  const unsigned char header[54] = {0x42, 0x4D, 0xF6, 0xD4, 0x01, 0x00, 0,    0,   0,    0,
+                                    0x36, 0,    0,    0,    0x28, 0,    0,    0,   0xC8, 0,
+                                    0,    0,    0xC8, 0,    0,    0,    1,    0,   0x18, 0,
+                                    0,    0,    0,    0,    0xC0, 0xD4, 0x01, 0x00};
   ASSERT_EQ(bytes.size(), 120'054u);
   EXPECT_EQ(std::memcmp(bytes.data(), header, sizeof header), 0);
   // Bottom row first, blue first.
@@ -85,8 +86,8 @@ TEST(WriteImage, ExrGivesBackItsBits) {
   const std::vector<float> colour = odd_floats(std::size_t{3} * width * height);
   const std::vector<float> depth = odd_floats(std::size_t{width} * height);
   const std::span<const float> all(colour);
-  const ExrChannel channels[] = {{"R", all, 3}, {"G", all.subspan(1), 3}, {"B", all.subspan(2), 3},
-                                 {"N.X", depth}};
+  const ExrChannel channels[] = {
+      {"R", all, 3}, {"G", all.subspan(1), 3}, {"B", all.subspan(2), 3}, {"N.X", depth}};
   const std::string bytes = encode_exr(width, height, channels, attributes).value();
   const auto image = read_exr(bytes);
   ASSERT_TRUE(image.ok()) << image.error().message;
@@ -124,8 +125,8 @@ TEST(WriteImage, ExrRoundsToHalfWhereAsked) {
   ASSERT_TRUE(image.ok());
   EXPECT_EQ(image.value().planes[0].depth, ExrDepth::half);
   EXPECT_EQ(image.value().planes[0].samples,
-            (std::vector<float>{0.0999755859375f, 65504.0f,
-                                std::numeric_limits<float>::infinity(), -0.25f}));
+            (std::vector<float>{0.0999755859375f, 65504.0f, std::numeric_limits<float>::infinity(),
+                                -0.25f}));
 }
 
 TEST(WriteImage, TwoEncodingsAreTheSameBytes) {
