@@ -1,7 +1,6 @@
 #include "base/atomic_file.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <ctime>
 #include <system_error>
 
@@ -52,7 +52,7 @@ std::string target_of(std::string path) {
 }
 
 std::optional<std::string> find_directory_problem(const std::string& directory) {
-  struct stat info {};
+  struct stat info{};
   if (::stat(directory.c_str(), &info) != 0) {
     if (errno == ENOENT) return "directory `" + directory + "` does not exist";
     return "directory `" + directory + "`: " + text_of_errno(errno);
@@ -169,7 +169,7 @@ void flush_directory(const std::string& directory) {
 int replace(const std::string& target, std::string_view bytes) {
   TemporaryFile file(target);
   if (file.opening_error() != 0) return file.opening_error();
-  struct stat existing {};
+  struct stat existing{};
   if (::stat(target.c_str(), &existing) == 0) {
     if (const int error = file.set_mode(existing.st_mode & permission_bits)) return error;
   }
@@ -184,7 +184,7 @@ int replace(const std::string& target, std::string_view bytes) {
 std::optional<std::string> find_output_problem(const std::string& path) {
   if (path.empty()) return "the path is empty";
   if (path.find('\0') != std::string::npos) return "the path holds a NUL byte";
-  struct stat info {};
+  struct stat info{};
   if (::stat(path.c_str(), &info) == 0) {
     if (auto problem = find_existing_problem(path, info)) return problem;
   } else if (errno != ENOENT && errno != ENOTDIR) {

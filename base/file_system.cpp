@@ -112,14 +112,14 @@ Result<FileContent, FileError> read_regular(const std::string& path, std::uint64
   // Opened non-blocking: a FIFO without a writer must not hold us, a terminal must not become ours.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
   if (file.number() < 0) return Failure{error_of(errno)};
-  struct stat before {};
+  struct stat before{};
   if (::fstat(file.number(), &before) != 0) return Failure{error_of(errno)};
   for (int attempt = 0;; ++attempt) {
     if (const auto problem = find_kind_problem(before)) return Failure{*problem};
     const auto stated_size = static_cast<std::uint64_t>(before.st_size);
     if (stated_size > size_limit) return Failure{FileError::too_large};
     auto content = read_all(file.number(), stated_size, size_limit);
-    struct stat after {};
+    struct stat after{};
     if (::fstat(file.number(), &after) != 0) return Failure{error_of(errno)};
     // Somebody wrote while we read: a second look mends the common case of an editor that saves.
     if (attempt > 0 || !changed(before, after)) return content;
@@ -144,7 +144,7 @@ Result<FileContent, FileError> RealFileSystem::read(const std::string& path,
 }
 
 bool RealFileSystem::is_file(const std::string& path) {
-  struct stat info {};
+  struct stat info{};
   return !has_nul(path) && ::stat(path.c_str(), &info) == 0 && S_ISREG(info.st_mode);
 }
 

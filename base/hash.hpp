@@ -38,7 +38,7 @@ class Hasher {
   void add(double value);
   void add(Hash128 value);
   template <class T>
-  requires std::integral<T> || std::is_enum_v<T>
+    requires std::integral<T> || std::is_enum_v<T>
   void add(T value) {
     const auto wide = static_cast<std::uint64_t>(value);
     raw(&wide, sizeof wide);

@@ -7,7 +7,7 @@ namespace scenec {
 namespace {
 
 struct BaseDimension {
-  std::int8_t Dimension::*exponent;
+  std::int8_t Dimension::* exponent;
   std::string_view name;
   std::string_view unit;
 };
@@ -33,7 +33,7 @@ constexpr std::array<Unit, 11> units{{
     {"%", dimension::none, 1, 100},
 }};
 
-std::string product_text(Dimension dimension, std::string_view BaseDimension::*word) {
+std::string product_text(Dimension dimension, std::string_view BaseDimension::* word) {
   std::string text;
   for (const BaseDimension& base : base_dimensions) {
     const int exponent = dimension.*base.exponent;

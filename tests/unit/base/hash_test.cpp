@@ -22,7 +22,8 @@ Hash128 hash_of(const T&... values) {
 TEST(Hash, IsStable) {
   EXPECT_EQ(hash_bytes("").hex(), "99aa06d3014798d86001c324468d497f");
   EXPECT_EQ(hash_bytes("scenec").hex(), "8f4ff4e684add0d4140ef672fd524c6c");
-  EXPECT_EQ(hash_of(std::string_view("sphere"), 1.5, 7, true).hex(), "90634d10b12e1f0b56abc3ff84406dd0");
+  EXPECT_EQ(hash_of(std::string_view("sphere"), 1.5, 7, true).hex(),
+            "90634d10b12e1f0b56abc3ff84406dd0");
 }
 
 TEST(Hash, StreamingEqualsWhole) {

@@ -93,8 +93,7 @@ TEST(ThreadPool, StopsWhenAsked) {
     EXPECT_GE(done, 10U);
     EXPECT_LT(done, 100000U);
     // Asked before it begins: nothing is begun. The pool stays usable.
-    EXPECT_FALSE(pool.for_each(
-        5, [&](std::size_t, unsigned) { FAIL(); }, stop.get_token()));
+    EXPECT_FALSE(pool.for_each(5, [&](std::size_t, unsigned) { FAIL(); }, stop.get_token()));
     EXPECT_TRUE(pool.for_each(5, [](std::size_t, unsigned) {}));
   }
 }
