@@ -97,7 +97,8 @@ std::size_t split(std::span<Entry> entries, const Bounds3& box, int depth, int& 
       const double area = box.half_area();
       const double leaf_cost = cost_of_entry * static_cast<double>(count);
       // Flat and overflowing boxes have no usable area: then split while a leaf would be too large.
-      const double split_cost = area > 0 ? cost_of_node + cost_of_entry * best.cost / area : leaf_cost;
+      const double split_cost =
+          area > 0 ? cost_of_node + cost_of_entry * best.cost / area : leaf_cost;
       if (count <= Bvh::max_leaf && !(split_cost < leaf_cost)) return 0;
       const double scale = bin_scale(centroids, best.axis);
       const double low = component(centroids.min, best.axis);
@@ -123,7 +124,8 @@ void make_leaf(BvhNode& node, std::size_t first, std::size_t count) {
 }
 
 // Depth-first, recursive: the depth is bounded by Bvh::max_depth.
-void build_subtree(std::span<Entry> all, std::size_t first, std::size_t count, int depth, Tree& tree) {
+void build_subtree(std::span<Entry> all, std::size_t first, std::size_t count, int depth,
+                   Tree& tree) {
   const std::size_t self = tree.nodes.size();
   tree.nodes.emplace_back();
   tree.depth = std::max(tree.depth, depth);
@@ -155,8 +157,8 @@ struct Task {
   Tree tree;
 };
 
-void build_top(std::span<Entry> all, std::size_t first, std::size_t count, int depth, std::vector<TopNode>& top,
-               std::vector<Task>& tasks) {
+void build_top(std::span<Entry> all, std::size_t first, std::size_t count, int depth,
+               std::vector<TopNode>& top, std::vector<Task>& tasks) {
   const std::size_t self = top.size();
   top.emplace_back();
   const std::span<Entry> entries = all.subspan(first, count);
@@ -203,7 +205,8 @@ Bvh::Bvh(std::span<const Bounds3> boxes, ThreadPool& pool) {
   std::vector<Entry> entries;
   entries.reserve(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i)
-    if (!boxes[i].empty() && boxes[i].finite()) entries.push_back({boxes[i], boxes[i].centroid(), i});
+    if (!boxes[i].empty() && boxes[i].finite())
+      entries.push_back({boxes[i], boxes[i].centroid(), i});
   if (entries.empty()) return;
   std::vector<TopNode> top;
   std::vector<Task> tasks;

@@ -21,7 +21,8 @@ namespace scenec::backend {
 
 struct alignas(64) BvhNode {
   Bounds3 box;
-  std::uint32_t first = 0;  // leaf: first entry of `order`; inner: the second child (the first is next)
+  std::uint32_t first =
+      0;  // leaf: first entry of `order`; inner: the second child (the first is next)
   std::uint32_t count = 0;  // leaf: entries; inner: 0
   std::uint32_t axis = 0;   // inner: axis of the split
 };

@@ -24,15 +24,19 @@ class RayBoxTest {
   explicit RayBoxTest(const Ray& ray)
       : origin_(ray.origin),
         inverse_{1 / ray.direction.x, 1 / ray.direction.y, 1 / ray.direction.z},
-        negative_{std::signbit(ray.direction.x), std::signbit(ray.direction.y), std::signbit(ray.direction.z)} {}
+        negative_{std::signbit(ray.direction.x), std::signbit(ray.direction.y),
+                  std::signbit(ray.direction.z)} {}
 
   // Whether [t_min, t_max] meets the box; `entry` is where, for ordering and later pruning.
   [[nodiscard]] bool meets(const Bounds3& box, double t_min, double t_max, double& entry) const {
     double near = -Bounds3::infinity;
     double far = Bounds3::infinity;
-    narrow(negative_[0] ? box.max.x : box.min.x, negative_[0] ? box.min.x : box.max.x, origin_.x, inverse_.x, near, far);
-    narrow(negative_[1] ? box.max.y : box.min.y, negative_[1] ? box.min.y : box.max.y, origin_.y, inverse_.y, near, far);
-    narrow(negative_[2] ? box.max.z : box.min.z, negative_[2] ? box.min.z : box.max.z, origin_.z, inverse_.z, near, far);
+    narrow(negative_[0] ? box.max.x : box.min.x, negative_[0] ? box.min.x : box.max.x, origin_.x,
+           inverse_.x, near, far);
+    narrow(negative_[1] ? box.max.y : box.min.y, negative_[1] ? box.min.y : box.max.y, origin_.y,
+           inverse_.y, near, far);
+    narrow(negative_[2] ? box.max.z : box.min.z, negative_[2] ? box.min.z : box.max.z, origin_.z,
+           inverse_.z, near, far);
     near -= std::fabs(near) * gamma(16);
     far += std::fabs(far) * gamma(16);
     entry = near > t_min ? near : t_min;
@@ -41,7 +45,8 @@ class RayBoxTest {
   }
 
  private:
-  static void narrow(double enter, double leave, double origin, double inverse, double& near, double& far) {
+  static void narrow(double enter, double leave, double origin, double inverse, double& near,
+                     double& far) {
     const double t0 = (enter - origin) * inverse;
     const double t1 = (leave - origin) * inverse;
     near = t0 > near ? t0 : near;  // false for NaN
@@ -56,7 +61,8 @@ class RayBoxTest {
 // Calls leaf(first, count), entries of `bvh.order()`, for every leaf whose box meets the ray up to
 // `t_max`, which the callee may lower meanwhile. Stops, and returns true, when `leaf` returns true.
 template <class Leaf>
-bool visit_leaves(const Bvh& bvh, const RayBoxTest& test, double t_min, const double& t_max, Leaf&& leaf) {
+bool visit_leaves(const Bvh& bvh, const RayBoxTest& test, double t_min, const double& t_max,
+                  Leaf&& leaf) {
   struct Pending {
     std::uint32_t node;
     double entry;

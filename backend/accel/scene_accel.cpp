@@ -11,13 +11,27 @@ namespace {
 
 // Where shapes of each type live; adding a kind is one line here and one case in `object_bounds`
 // and in the query's switch.
-std::pair<std::vector<Sphere>*, ShapeKind> store_of(SceneAccel::Data& d, const Sphere&) { return {&d.spheres, ShapeKind::sphere}; }
-std::pair<std::vector<Plane>*, ShapeKind> store_of(SceneAccel::Data& d, const Plane&) { return {&d.planes, ShapeKind::plane}; }
-std::pair<std::vector<Triangle>*, ShapeKind> store_of(SceneAccel::Data& d, const Triangle&) { return {&d.triangles, ShapeKind::triangle}; }
-std::pair<std::vector<Quad>*, ShapeKind> store_of(SceneAccel::Data& d, const Quad&) { return {&d.quads, ShapeKind::quad}; }
-std::pair<std::vector<Disk>*, ShapeKind> store_of(SceneAccel::Data& d, const Disk&) { return {&d.disks, ShapeKind::disk}; }
-std::pair<std::vector<Box>*, ShapeKind> store_of(SceneAccel::Data& d, const Box&) { return {&d.boxes, ShapeKind::box}; }
-std::pair<std::vector<Cylinder>*, ShapeKind> store_of(SceneAccel::Data& d, const Cylinder&) { return {&d.cylinders, ShapeKind::cylinder}; }
+std::pair<std::vector<Sphere>*, ShapeKind> store_of(SceneAccel::Data& d, const Sphere&) {
+  return {&d.spheres, ShapeKind::sphere};
+}
+std::pair<std::vector<Plane>*, ShapeKind> store_of(SceneAccel::Data& d, const Plane&) {
+  return {&d.planes, ShapeKind::plane};
+}
+std::pair<std::vector<Triangle>*, ShapeKind> store_of(SceneAccel::Data& d, const Triangle&) {
+  return {&d.triangles, ShapeKind::triangle};
+}
+std::pair<std::vector<Quad>*, ShapeKind> store_of(SceneAccel::Data& d, const Quad&) {
+  return {&d.quads, ShapeKind::quad};
+}
+std::pair<std::vector<Disk>*, ShapeKind> store_of(SceneAccel::Data& d, const Disk&) {
+  return {&d.disks, ShapeKind::disk};
+}
+std::pair<std::vector<Box>*, ShapeKind> store_of(SceneAccel::Data& d, const Box&) {
+  return {&d.boxes, ShapeKind::box};
+}
+std::pair<std::vector<Cylinder>*, ShapeKind> store_of(SceneAccel::Data& d, const Cylinder&) {
+  return {&d.cylinders, ShapeKind::cylinder};
+}
 
 template <class T>
 std::uint32_t push(std::vector<T>& values, T value) {
@@ -34,7 +48,8 @@ std::vector<Bounds3> face_boxes(const TriangleMesh& mesh) {
 
 }  // namespace
 
-MeshAccel::MeshAccel(TriangleMesh mesh, ThreadPool& pool) : mesh_(std::move(mesh)), bvh_(face_boxes(mesh_), pool) {}
+MeshAccel::MeshAccel(TriangleMesh mesh, ThreadPool& pool)
+    : mesh_(std::move(mesh)), bvh_(face_boxes(mesh_), pool) {}
 
 SceneAccel::SceneAccel() : data_(std::make_unique<Data>()) {}
 SceneAccel::~SceneAccel() = default;
@@ -47,7 +62,8 @@ SceneAccel::TransformIndex SceneAccel::add_transform(const Transform& world_from
 }
 
 template <class Shape>
-void SceneAccel::add(std::uint32_t item, const Shape& shape, TransformIndex place, ItemOption option) {
+void SceneAccel::add(std::uint32_t item, const Shape& shape, TransformIndex place,
+                     ItemOption option) {
   static_assert(ShapeKernel<Shape>);
   SCENEC_ASSERT(!data_->built && place < data_->transforms.size());
   const auto [store, kind] = store_of(*data_, shape);
@@ -62,36 +78,50 @@ template void SceneAccel::add(std::uint32_t, const Disk&, TransformIndex, ItemOp
 template void SceneAccel::add(std::uint32_t, const Box&, TransformIndex, ItemOption);
 template void SceneAccel::add(std::uint32_t, const Cylinder&, TransformIndex, ItemOption);
 
-void SceneAccel::add_mesh(std::uint32_t item, std::shared_ptr<const MeshAccel> mesh, TransformIndex place,
-                          ItemOption option) {
+void SceneAccel::add_mesh(std::uint32_t item, std::shared_ptr<const MeshAccel> mesh,
+                          TransformIndex place, ItemOption option) {
   SCENEC_ASSERT(!data_->built && place < data_->transforms.size() && mesh != nullptr);
-  data_->items.push_back({item, place, push(data_->meshes, std::move(mesh)), ShapeKind::mesh, option});
+  data_->items.push_back(
+      {item, place, push(data_->meshes, std::move(mesh)), ShapeKind::mesh, option});
 }
 
-void SceneAccel::add_revolve(std::uint32_t item, std::shared_ptr<const Revolve> revolve, TransformIndex place,
-                             ItemOption option) {
+void SceneAccel::add_revolve(std::uint32_t item, std::shared_ptr<const Revolve> revolve,
+                             TransformIndex place, ItemOption option) {
   SCENEC_ASSERT(!data_->built && place < data_->transforms.size() && revolve != nullptr);
-  data_->items.push_back({item, place, push(data_->revolves, std::move(revolve)), ShapeKind::revolve, option});
+  data_->items.push_back(
+      {item, place, push(data_->revolves, std::move(revolve)), ShapeKind::revolve, option});
 }
 
-void SceneAccel::add_instance(std::uint32_t item, std::shared_ptr<const SceneAccel> world, TransformIndex place) {
-  SCENEC_ASSERT(!data_->built && place < data_->transforms.size() && world != nullptr && world->data_->built);
+void SceneAccel::add_instance(std::uint32_t item, std::shared_ptr<const SceneAccel> world,
+                              TransformIndex place) {
+  SCENEC_ASSERT(!data_->built && place < data_->transforms.size() && world != nullptr &&
+                world->data_->built);
   SCENEC_ASSERT(world->data_->depth < Hit::max_instances);
   data_->depth = std::max(data_->depth, world->data_->depth + 1);
-  data_->items.push_back({item, place, push(data_->worlds, std::move(world)), ShapeKind::instance, ItemOption::plain});
+  data_->items.push_back(
+      {item, place, push(data_->worlds, std::move(world)), ShapeKind::instance, ItemOption::plain});
 }
 
 Bounds3 SceneAccel::Data::object_bounds(const PlacedItem& item) const {
   switch (item.kind) {
-    case ShapeKind::sphere: return backend::bounds(spheres[item.index]);
-    case ShapeKind::plane: return backend::bounds(planes[item.index]);
-    case ShapeKind::triangle: return backend::bounds(triangles[item.index]);
-    case ShapeKind::quad: return backend::bounds(quads[item.index]);
-    case ShapeKind::disk: return backend::bounds(disks[item.index]);
-    case ShapeKind::box: return backend::bounds(boxes[item.index]);
-    case ShapeKind::cylinder: return backend::bounds(cylinders[item.index]);
-    case ShapeKind::mesh: return meshes[item.index]->bvh().bounds();
-    case ShapeKind::revolve: return backend::bounds(*revolves[item.index]);
+    case ShapeKind::sphere:
+      return backend::bounds(spheres[item.index]);
+    case ShapeKind::plane:
+      return backend::bounds(planes[item.index]);
+    case ShapeKind::triangle:
+      return backend::bounds(triangles[item.index]);
+    case ShapeKind::quad:
+      return backend::bounds(quads[item.index]);
+    case ShapeKind::disk:
+      return backend::bounds(disks[item.index]);
+    case ShapeKind::box:
+      return backend::bounds(boxes[item.index]);
+    case ShapeKind::cylinder:
+      return backend::bounds(cylinders[item.index]);
+    case ShapeKind::mesh:
+      return meshes[item.index]->bvh().bounds();
+    case ShapeKind::revolve:
+      return backend::bounds(*revolves[item.index]);
     case ShapeKind::instance: {
       const Data& world = of(*worlds[item.index]);
       return world.unbounded.empty() ? world.bvh.bounds() : backend::bounds(Plane{});
@@ -126,7 +156,11 @@ void SceneAccel::build(ThreadPool& pool) {
   for (const std::uint32_t i : d.bvh.order()) d.items.push_back(bounded[i]);
 }
 
-Bounds3 SceneAccel::bounds() const { return data_->bvh.bounds(); }
-std::size_t SceneAccel::item_count() const { return data_->items.size() + data_->unbounded.size(); }
+Bounds3 SceneAccel::bounds() const {
+  return data_->bvh.bounds();
+}
+std::size_t SceneAccel::item_count() const {
+  return data_->items.size() + data_->unbounded.size();
+}
 
 }  // namespace scenec::backend

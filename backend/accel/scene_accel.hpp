@@ -52,14 +52,17 @@ class HitFilter {
  public:
   HitFilter() = default;
   template <class F>
-    requires(!std::is_same_v<std::remove_cvref_t<F>, HitFilter> && std::is_invocable_r_v<bool, F&, const Hit&>)
-  HitFilter(F&& keep)  // NOLINT(google-explicit-constructor): a call site passes a lambda
+  requires(!std::is_same_v<std::remove_cvref_t<F>, HitFilter> &&
+           std::is_invocable_r_v<bool, F&, const Hit&>)
+      HitFilter(F&& keep)  // NOLINT(google-explicit-constructor): a call site passes a lambda
       : context_(const_cast<void*>(static_cast<const void*>(&keep))),
         call_([](void* context, const Hit& hit) -> bool {
           return (*static_cast<std::remove_reference_t<F>*>(context))(hit);
         }) {}
   [[nodiscard]] bool active() const { return call_ != nullptr; }
-  [[nodiscard]] bool keeps(const Hit& hit) const { return call_ == nullptr || call_(context_, hit); }
+  [[nodiscard]] bool keeps(const Hit& hit) const {
+    return call_ == nullptr || call_(context_, hit);
+  }
 
  private:
   void* context_ = nullptr;
@@ -85,12 +88,13 @@ class SceneAccel {
   template <class Shape>
   void add(std::uint32_t item, const Shape& shape, TransformIndex place = identity,
            ItemOption option = ItemOption::plain);
-  void add_mesh(std::uint32_t item, std::shared_ptr<const MeshAccel> mesh, TransformIndex place = identity,
-                ItemOption option = ItemOption::plain);
-  void add_revolve(std::uint32_t item, std::shared_ptr<const Revolve> revolve, TransformIndex place = identity,
-                   ItemOption option = ItemOption::plain);
+  void add_mesh(std::uint32_t item, std::shared_ptr<const MeshAccel> mesh,
+                TransformIndex place = identity, ItemOption option = ItemOption::plain);
+  void add_revolve(std::uint32_t item, std::shared_ptr<const Revolve> revolve,
+                   TransformIndex place = identity, ItemOption option = ItemOption::plain);
   // `world` must be built. Its hits carry `item` in `Hit::instances`.
-  void add_instance(std::uint32_t item, std::shared_ptr<const SceneAccel> world, TransformIndex place = identity);
+  void add_instance(std::uint32_t item, std::shared_ptr<const SceneAccel> world,
+                    TransformIndex place = identity);
 
   // Once, after all items.
   void build(ThreadPool& pool);
@@ -104,7 +108,8 @@ class SceneAccel {
   [[nodiscard]] Bounds3 bounds() const;
   [[nodiscard]] std::size_t item_count() const;
   // The oracle of the tests: as `intersect`, without the tree over items.
-  [[nodiscard]] bool intersect_brute_force(const Ray& ray, Hit& hit, const HitFilter& filter = {}) const;
+  [[nodiscard]] bool intersect_brute_force(const Ray& ray, Hit& hit,
+                                           const HitFilter& filter = {}) const;
 
   struct Data;
 

@@ -10,7 +10,16 @@
 namespace scenec::backend {
 
 enum class ShapeKind : std::uint8_t {
-  sphere, plane, triangle, quad, disk, box, cylinder, mesh, revolve, instance
+  sphere,
+  plane,
+  triangle,
+  quad,
+  disk,
+  box,
+  cylinder,
+  mesh,
+  revolve,
+  instance
 };
 
 struct PlacedItem {

@@ -1,4 +1,5 @@
-// Tracing a SceneAccel: one walk serves closest and any hit, plain and filtered, tree and brute force.
+// Tracing a SceneAccel: one walk serves closest and any hit, plain and filtered, tree and brute
+// force.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -38,32 +39,51 @@ Surface object_surface(const Placement& place, const Ray& ray, const ShapeHit& h
   const World& w = *place.world;
   const std::uint32_t i = place.item->index;
   switch (place.item->kind) {
-    case ShapeKind::sphere: return surface(w.spheres[i], ray, hit);
-    case ShapeKind::plane: return surface(w.planes[i], ray, hit);
-    case ShapeKind::triangle: return surface(w.triangles[i], ray, hit);
-    case ShapeKind::quad: return surface(w.quads[i], ray, hit);
-    case ShapeKind::disk: return surface(w.disks[i], ray, hit);
-    case ShapeKind::box: return surface(w.boxes[i], ray, hit);
-    case ShapeKind::cylinder: return surface(w.cylinders[i], ray, hit);
-    case ShapeKind::mesh: return surface(w.meshes[i]->mesh(), hit);
-    case ShapeKind::revolve: return surface(*w.revolves[i], ray, hit);
-    case ShapeKind::instance: break;
+    case ShapeKind::sphere:
+      return surface(w.spheres[i], ray, hit);
+    case ShapeKind::plane:
+      return surface(w.planes[i], ray, hit);
+    case ShapeKind::triangle:
+      return surface(w.triangles[i], ray, hit);
+    case ShapeKind::quad:
+      return surface(w.quads[i], ray, hit);
+    case ShapeKind::disk:
+      return surface(w.disks[i], ray, hit);
+    case ShapeKind::box:
+      return surface(w.boxes[i], ray, hit);
+    case ShapeKind::cylinder:
+      return surface(w.cylinders[i], ray, hit);
+    case ShapeKind::mesh:
+      return surface(w.meshes[i]->mesh(), hit);
+    case ShapeKind::revolve:
+      return surface(*w.revolves[i], ray, hit);
+    case ShapeKind::instance:
+      break;
   }
   return {};
 }
 
 bool intersect_shape(const World& w, const PlacedItem& item, const Ray& ray, ShapeHit& out) {
   switch (item.kind) {
-    case ShapeKind::sphere: return intersect(w.spheres[item.index], ray, out);
-    case ShapeKind::plane: return intersect(w.planes[item.index], ray, out);
-    case ShapeKind::triangle: return intersect(w.triangles[item.index], ray, out);
-    case ShapeKind::quad: return intersect(w.quads[item.index], ray, out);
-    case ShapeKind::disk: return intersect(w.disks[item.index], ray, out);
-    case ShapeKind::box: return intersect(w.boxes[item.index], ray, out);
-    case ShapeKind::cylinder: return intersect(w.cylinders[item.index], ray, out);
-    case ShapeKind::revolve: return intersect(*w.revolves[item.index], ray, out);
+    case ShapeKind::sphere:
+      return intersect(w.spheres[item.index], ray, out);
+    case ShapeKind::plane:
+      return intersect(w.planes[item.index], ray, out);
+    case ShapeKind::triangle:
+      return intersect(w.triangles[item.index], ray, out);
+    case ShapeKind::quad:
+      return intersect(w.quads[item.index], ray, out);
+    case ShapeKind::disk:
+      return intersect(w.disks[item.index], ray, out);
+    case ShapeKind::box:
+      return intersect(w.boxes[item.index], ray, out);
+    case ShapeKind::cylinder:
+      return intersect(w.cylinders[item.index], ray, out);
+    case ShapeKind::revolve:
+      return intersect(*w.revolves[item.index], ray, out);
     case ShapeKind::mesh:
-    case ShapeKind::instance: break;
+    case ShapeKind::instance:
+      break;
   }
   return false;
 }
@@ -92,7 +112,8 @@ Hit complete(const Path& path, const Ray& world_ray, const ShapeHit& found) {
   hit.primitive = found.part;
   hit.instance_count = path.size - 1;
   for (std::uint32_t i = 0; i + 1 < path.size; ++i) hit.instances[i] = path.steps[i].item->item;
-  const bool barycentric = leaf.item->kind == ShapeKind::triangle || leaf.item->kind == ShapeKind::mesh;
+  const bool barycentric =
+      leaf.item->kind == ShapeKind::triangle || leaf.item->kind == ShapeKind::mesh;
   hit.b1 = barycentric ? found.a : 0;
   hit.b2 = barycentric ? found.b : 0;
   hit.point = s.point;
@@ -166,7 +187,8 @@ class Query {
       const TriangleMesh& m = mesh.mesh();
       const Face& f = m.faces[face];
       ShapeHit hit;
-      if (!intersect_triangle(shear, m.positions[f[0]], m.positions[f[1]], m.positions[f[2]], ray.t_min, best_.t, hit))
+      if (!intersect_triangle(shear, m.positions[f[0]], m.positions[f[1]], m.positions[f[2]],
+                              ray.t_min, best_.t, hit))
         return false;
       hit.part = face;
       return improves(hit) && passes(item, hit) && accept(hit);

@@ -45,7 +45,9 @@ bool intersect(const Box& box, const Ray& ray, ShapeHit& out) {
   return true;
 }
 
-Bounds3 bounds(const Box& box) { return {box.min, box.max}; }
+Bounds3 bounds(const Box& box) {
+  return {box.min, box.max};
+}
 
 Surface surface(const Box& box, const Ray& ray, const ShapeHit& hit) {
   const int axis = static_cast<int>(hit.part / 2);
@@ -54,7 +56,8 @@ Surface surface(const Box& box, const Ray& ray, const ShapeHit& hit) {
   Point3 p = ray.at(hit.t);
   // Kept within the face, and exactly on it in its own axis.
   for (int i = 0; i < 3; ++i)
-    set_component(p, i, std::fmin(std::fmax(component(p, i), component(box.min, i)), component(box.max, i)));
+    set_component(
+        p, i, std::fmin(std::fmax(component(p, i), component(box.min, i)), component(box.max, i)));
   set_component(p, axis, high ? component(box.max, axis) : component(box.min, axis));
   Surface s;
   s.point = p;

@@ -79,7 +79,9 @@ bool intersect(const Cylinder& cylinder, const Ray& ray, ShapeHit& out) {
 
 Bounds3 bounds(const Cylinder& cylinder) {
   const UnitVector3& axis = cylinder.frame.z;
-  const auto reach = [&](double n) { return cylinder.radius * std::sqrt(std::fmax(0, 1 - n * n) + gamma(16)); };
+  const auto reach = [&](double n) {
+    return cylinder.radius * std::sqrt(std::fmax(0, 1 - n * n) + gamma(16));
+  };
   const Vector3 e{reach(axis.x()), reach(axis.y()), reach(axis.z())};
   const Point3 top = cylinder.base + cylinder.height * axis.vector();
   Bounds3 b{cylinder.base - e, cylinder.base + e};
@@ -114,7 +116,8 @@ Surface surface(const Cylinder& cylinder, const Ray& ray, const ShapeHit& hit) {
   // Into the frame and out of it mixes the axes, so the error is the same in all: of the local
   // coordinates, and of the base they are added to.
   const double local = gamma(16) * (cylinder.radius + std::fabs(p.z));
-  s.error = Vector3{local, local, local} + gamma(4) * (abs(as_vector(s.point)) + abs(as_vector(cylinder.base)));
+  s.error = Vector3{local, local, local} +
+            gamma(4) * (abs(as_vector(s.point)) + abs(as_vector(cylinder.base)));
   return s;
 }
 

@@ -21,7 +21,9 @@ bool intersect(const Disk& disk, const Ray& ray, ShapeHit& out) {
 
 Bounds3 bounds(const Disk& disk) {
   // The rim reaches r sqrt(1 - n_i^2) along axis i; a little more covers a normal unit to 2 ulp.
-  const auto reach = [&](double n) { return disk.radius * std::sqrt(std::fmax(0, 1 - n * n) + gamma(16)); };
+  const auto reach = [&](double n) {
+    return disk.radius * std::sqrt(std::fmax(0, 1 - n * n) + gamma(16));
+  };
   const Vector3 e{reach(disk.normal.x()), reach(disk.normal.y()), reach(disk.normal.z())};
   return outward({disk.center - e, disk.center + e});
 }
@@ -31,7 +33,8 @@ Surface surface(const Disk& disk, const Ray& ray, const ShapeHit& hit) {
   p = p - dot(p, disk.normal) * disk.normal.vector();
   Surface s;
   s.point = disk.center + p;
-  s.error = gamma(8) * (abs(p) + disk.radius * abs(disk.normal)) + gamma(2) * abs(as_vector(s.point));
+  s.error =
+      gamma(8) * (abs(p) + disk.radius * abs(disk.normal)) + gamma(2) * abs(as_vector(s.point));
   s.geometric_normal = s.shading_normal = as_normal(disk.normal);
   const Frame frame = frame_about(disk.normal);
   const Vector3 q = frame.local_of(p);
@@ -39,7 +42,8 @@ Surface surface(const Disk& disk, const Ray& ray, const ShapeHit& hit) {
   s.u = turn_fraction(q.y, q.x);
   s.v = 1 - std::fmin(1, rho / disk.radius);
   s.dp_du = 2 * pi * frame.world_of(Vector3{-q.y, q.x, 0});
-  s.dp_dv = rho > 0 ? frame.world_of(Vector3{-q.x, -q.y, 0} * (disk.radius / rho)) : frame.x.vector() * -disk.radius;
+  s.dp_dv = rho > 0 ? frame.world_of(Vector3{-q.x, -q.y, 0} * (disk.radius / rho))
+                    : frame.x.vector() * -disk.radius;
   return s;
 }
 

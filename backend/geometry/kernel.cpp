@@ -26,7 +26,8 @@ Ray spawn_ray(const Hit& hit, const Vector3& direction) {
 }
 
 Ray spawn_segment(const Hit& hit, const Point3& target) {
-  const Point3 origin = offset_origin(hit.point, hit.error, hit.geometric_normal, target - hit.point);
+  const Point3 origin =
+      offset_origin(hit.point, hit.error, hit.geometric_normal, target - hit.point);
   return {origin, target - origin, 0, next_down(1.0)};
 }
 

@@ -43,13 +43,13 @@ struct ShapeHit {
 // The surface at a hit, in the shape's own space. Normals point to the outer side (winding, or
 // dp_du x dp_dv), whatever side the ray came from, and need not be unit.
 struct Surface {
-  Point3 point;    // on the surface as nearly as double allows
-  Vector3 error;   // bound on the distance of `point` from the surface, an axis at a time
+  Point3 point;   // on the surface as nearly as double allows
+  Vector3 error;  // bound on the distance of `point` from the surface, an axis at a time
   Normal3 geometric_normal;
   Normal3 shading_normal;
   double u = 0;
   double v = 0;
-  Vector3 dp_du;   // zero where u has no direction (a pole)
+  Vector3 dp_du;  // zero where u has no direction (a pole)
   Vector3 dp_dv;
 };
 
@@ -59,16 +59,16 @@ struct Hit {
   static constexpr std::uint32_t max_instances = 8;
 
   double t = std::numeric_limits<double>::infinity();
-  std::uint32_t item = none;      // the caller's number of the shape hit
-  std::uint32_t primitive = 0;    // triangle of a mesh, part of another shape
+  std::uint32_t item = none;    // the caller's number of the shape hit
+  std::uint32_t primitive = 0;  // triangle of a mesh, part of another shape
   std::uint32_t instance_count = 0;
   // The caller's numbers of the instances around the shape, outermost first.
   std::array<std::uint32_t, max_instances> instances{};
-  double b1 = 0;                  // barycentric weights of vertices 1 and 2 (triangles and meshes)
+  double b1 = 0;  // barycentric weights of vertices 1 and 2 (triangles and meshes)
   double b2 = 0;
   Point3 point;
-  Vector3 error;                  // bound on the error of `point`, an axis at a time
-  UnitVector3 geometric_normal;   // outer side, not turned to the ray
+  Vector3 error;                 // bound on the error of `point`, an axis at a time
+  UnitVector3 geometric_normal;  // outer side, not turned to the ray
   UnitVector3 shading_normal;
   double u = 0;
   double v = 0;
@@ -77,7 +77,8 @@ struct Hit {
 };
 
 template <class Shape>
-concept ShapeKernel = requires(const Shape& shape, const Ray& ray, ShapeHit& out, const ShapeHit& hit) {
+concept ShapeKernel = requires(const Shape& shape, const Ray& ray, ShapeHit& out,
+                               const ShapeHit& hit) {
   // The hit with the smallest t in [ray.t_min, ray.t_max]; false and `out` untouched if none.
   { intersect(shape, ray, out) } -> std::same_as<bool>;
   // Encloses every point the kernel can report.
@@ -91,8 +92,8 @@ inline constexpr double spawn_safety = 4;
 
 // The nearest representable origin off the surface at `point`, on the side `direction` goes to:
 // moved along the normal far enough that the error box of the point lies behind it.
-[[nodiscard]] Point3 offset_origin(const Point3& point, const Vector3& error, const UnitVector3& normal,
-                                   const Vector3& direction);
+[[nodiscard]] Point3 offset_origin(const Point3& point, const Vector3& error,
+                                   const UnitVector3& normal, const Vector3& direction);
 
 // A ray leaving a hit.
 [[nodiscard]] Ray spawn_ray(const Hit& hit, const Vector3& direction);

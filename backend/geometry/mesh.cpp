@@ -8,8 +8,8 @@ namespace {
 
 // The three attributes of a face, or false when the face names none (an index out of range).
 template <class T>
-bool attributes_of(const std::vector<T>& values, const std::vector<Face>& own_faces, const TriangleMesh& mesh,
-                   std::uint32_t face, std::array<T, 3>& out) {
+bool attributes_of(const std::vector<T>& values, const std::vector<Face>& own_faces,
+                   const TriangleMesh& mesh, std::uint32_t face, std::array<T, 3>& out) {
   if (values.empty()) return false;
   const Face& f = own_faces.empty() ? mesh.faces[face] : own_faces[face];
   for (std::size_t i = 0; i < 3; ++i) {

@@ -25,10 +25,10 @@ using Face = std::array<std::uint32_t, 3>;
 struct TriangleMesh {
   std::vector<Point3> positions;
   std::vector<Face> faces;
-  std::vector<Normal3> normals;      // empty: flat
-  std::vector<Face> normal_faces;    // empty: as `faces`
-  std::vector<Sample2> uvs;          // empty: barycentric weights
-  std::vector<Face> uv_faces;        // empty: as `faces`
+  std::vector<Normal3> normals;    // empty: flat
+  std::vector<Face> normal_faces;  // empty: as `faces`
+  std::vector<Sample2> uvs;        // empty: barycentric weights
+  std::vector<Face> uv_faces;      // empty: as `faces`
 };
 
 [[nodiscard]] Triangle triangle_of(const TriangleMesh& mesh, std::uint32_t face);

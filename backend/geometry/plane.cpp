@@ -29,9 +29,10 @@ Surface surface(const Plane& plane, const Ray& ray, const ShapeHit& hit) {
   Surface s;
   s.point = p;
   const UnitVector3 unit = normalized(n);
-  // Along the normal, n.p - offset is known to gamma(5) (sum |n_i p_i| + |offset|) / |n|. The way the
-  // ray came stands in where all of that is 0, at the origin of a plane through it.
-  const double across = max_abs(as_vector(p)) + std::fabs(plane.offset) / std::sqrt(n2) + max_abs(hit.t * ray.direction);
+  // Along the normal, n.p - offset is known to gamma(5) (sum |n_i p_i| + |offset|) / |n|. The way
+  // the ray came stands in where all of that is 0, at the origin of a plane through it.
+  const double across = max_abs(as_vector(p)) + std::fabs(plane.offset) / std::sqrt(n2) +
+                        max_abs(hit.t * ray.direction);
   s.error = gamma(6) * (abs(as_vector(p)) + across * abs(unit));
   s.geometric_normal = s.shading_normal = plane.normal;
   const Frame frame = frame_about(unit);

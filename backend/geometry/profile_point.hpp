@@ -35,13 +35,15 @@ struct ProfileJet {
 }
 
 // The slope, or where it is zero the limit of its direction at the nearer end.
-[[nodiscard]] inline ProfilePoint profile_tangent(std::span<const ProfilePoint> control, const ProfileJet& jet, double s) {
+[[nodiscard]] inline ProfilePoint profile_tangent(std::span<const ProfilePoint> control,
+                                                  const ProfileJet& jet, double s) {
   if (jet.slope.radius != 0 || jet.slope.height != 0) return jet.slope;
   const std::size_t n = control.size() - 1;
   for (std::size_t i = 1; i <= n; ++i) {
     const ProfilePoint& a = s < 0.5 ? control[0] : control[n - i];
     const ProfilePoint& b = s < 0.5 ? control[i] : control[n];
-    if (a.radius != b.radius || a.height != b.height) return {b.radius - a.radius, b.height - a.height};
+    if (a.radius != b.radius || a.height != b.height)
+      return {b.radius - a.radius, b.height - a.height};
   }
   return {};
 }

@@ -14,7 +14,9 @@ std::array<Point3, 4> corners(const Quad& quad) {
           quad.corner + quad.edge_v};
 }
 
-double edge_function(const RayShear::Sheared& a, const RayShear::Sheared& b) { return a.x * b.y - a.y * b.x; }
+double edge_function(const RayShear::Sheared& a, const RayShear::Sheared& b) {
+  return a.x * b.y - a.y * b.x;
+}
 
 }  // namespace
 
@@ -29,14 +31,15 @@ bool intersect(const Quad& quad, const Ray& ray, ShapeHit& out) {
   const double bc = edge_function(b, c);
   const double cd = edge_function(c, d);
   const double da = edge_function(d, a);
-  if ((ab < 0 || bc < 0 || cd < 0 || da < 0) && (ab > 0 || bc > 0 || cd > 0 || da > 0)) return false;
+  if ((ab < 0 || bc < 0 || cd < 0 || da < 0) && (ab > 0 || bc > 0 || cd > 0 || da > 0))
+    return false;
   const Vector3 n = cross(quad.edge_u, quad.edge_v);
   const double slope = dot(n, ray.direction);
   if (!(slope != 0)) return false;
   const double t = dot(n, quad.corner - ray.origin) / slope;
   if (!(t >= ray.t_min && t <= ray.t_max) || std::isinf(t)) return false;
-  // da grows from 0 on the first edge v to the whole area on the opposite one, and so does ab for v.
-  // A zero sum means that the ray lies in the plane as the edge functions see it.
+  // da grows from 0 on the first edge v to the whole area on the opposite one, and so does ab for
+  // v. A zero sum means that the ray lies in the plane as the edge functions see it.
   if (!(da + bc != 0 && ab + cd != 0)) return false;
   out = {t, 0, da / (da + bc), ab / (ab + cd)};
   return true;

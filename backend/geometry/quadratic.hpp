@@ -18,15 +18,16 @@ struct RootPair {
   double far = 0;
 };
 
-[[nodiscard]] inline bool line_meets_sphere(const Vector3& to_origin, const Vector3& direction, double radius,
-                                            RootPair& roots) {
+[[nodiscard]] inline bool line_meets_sphere(const Vector3& to_origin, const Vector3& direction,
+                                            double radius, RootPair& roots) {
   const double a = dot(direction, direction);
   const double b = -dot(to_origin, direction);
   const double r2 = radius * radius;
   const double c = dot(to_origin, to_origin) - r2;
   double discriminant = 0;
   if (b * b + a * std::fabs(c) <= a * r2) {
-    // Near or inside: c is small against r^2, so b^2 - ac keeps what the origin knows of the surface.
+    // Near or inside: c is small against r^2, so b^2 - ac keeps what the origin knows of the
+    // surface.
     discriminant = b * b - a * c;
   } else {
     // Far: b^2 - ac would cancel; the line's distance h from the centre does not.
@@ -45,7 +46,8 @@ struct RootPair {
 }
 
 // The first of the two roots within the closed interval.
-[[nodiscard]] inline bool first_root_within(const RootPair& roots, double t_min, double t_max, double& t) {
+[[nodiscard]] inline bool first_root_within(const RootPair& roots, double t_min, double t_max,
+                                            double& t) {
   if (roots.near >= t_min && roots.near <= t_max) {
     t = roots.near;
     return true;

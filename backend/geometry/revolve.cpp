@@ -18,8 +18,8 @@ ProfilePoint mix(const ProfilePoint& a, const ProfilePoint& b, double t) {
 }
 
 // The blossom of span [knot(3 + i), knot(4 + i)] of a cubic B-spline at three arguments.
-ProfilePoint blossom(std::span<const ProfilePoint> points, std::span<const double> knots, std::size_t i,
-                     const std::array<double, 3>& args) {
+ProfilePoint blossom(std::span<const ProfilePoint> points, std::span<const double> knots,
+                     std::size_t i, const std::array<double, 3>& args) {
   std::array<ProfilePoint, 4> p{points[i], points[i + 1], points[i + 2], points[i + 3]};
   for (std::size_t level = 0; level < 3; ++level) {
     for (std::size_t j = 0; j + level < 3; ++j) {
@@ -35,7 +35,9 @@ std::vector<double> spline_knots(std::size_t count, SplineEnds ends) {
   std::vector<double> knots(count + 4);
   for (std::size_t i = 0; i < knots.size(); ++i) {
     const double uniform = static_cast<double>(i) - 3;
-    knots[i] = ends == SplineEnds::uniform ? uniform : std::clamp(uniform, 0.0, static_cast<double>(count) - 3);
+    knots[i] = ends == SplineEnds::uniform
+                   ? uniform
+                   : std::clamp(uniform, 0.0, static_cast<double>(count) - 3);
   }
   return knots;
 }
@@ -153,7 +155,8 @@ Surface surface(const Revolve& revolve, const Ray& ray, const ShapeHit& hit) {
   s.dp_dv = outer(segments * Vector3{radius_slope * c, tangent.height, radius_slope * n});
   // What the root finder may be off by, in every direction: see `Solver::slack`.
   double size = 0;
-  for (const ProfilePoint& p : control) size = std::max({size, std::fabs(p.radius), std::fabs(p.height)});
+  for (const ProfilePoint& p : control)
+    size = std::max({size, std::fabs(p.radius), std::fabs(p.height)});
   const double e = gamma(256) * size;
   s.error = Vector3{e, e, e} + gamma(4) * abs(as_vector(s.point));
   return s;

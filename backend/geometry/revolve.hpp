@@ -8,9 +8,11 @@
 //             to the axis, no division by the slope along the axis) or t from the height. The root
 //             is found by Newton in a bracket and polished by two steps in (t, s).
 // Error:      roots satisfy both equations to gamma(64) of the profile's size.
-// Degenerate: tangent rays: hit or miss by rounding; a ray lying in the surface for a whole interval
-//             reports a point near the interval's nearest end; at most 4096 pieces a segment; negative
-//             radii count as their absolute value; a pole's normal is that of its limit tangent.
+// Degenerate: tangent rays: hit or miss by rounding; a ray lying in the surface for a whole
+// interval
+//             reports a point near the interval's nearest end; at most 4096 pieces a segment;
+//             negative radii count as their absolute value; a pole's normal is that of its limit
+//             tangent.
 // Proof:      tests/unit/backend/geometry/revolve_test.cpp (R01-R06, R08, R09, R16, R17).
 #pragma once
 

@@ -28,17 +28,27 @@ struct Range {
   [[nodiscard]] bool has_zero() const { return !(low > 0 || high < 0); }
 };
 
-Range meet(const Range& a, const Range& b) { return {std::max(a.low, b.low), std::min(a.high, b.high)}; }
-Range operator-(const Range& a, const Range& b) { return {a.low - b.high, a.high - b.low}; }
-Range operator-(const Range& a) { return {-a.high, -a.low}; }
+Range meet(const Range& a, const Range& b) {
+  return {std::max(a.low, b.low), std::min(a.high, b.high)};
+}
+Range operator-(const Range& a, const Range& b) {
+  return {a.low - b.high, a.high - b.low};
+}
+Range operator-(const Range& a) {
+  return {-a.high, -a.low};
+}
 Range operator*(const Range& a, const Range& b) {
-  const auto [low, high] = std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+  const auto [low, high] =
+      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
   return {low, high};
 }
-Range operator*(const Range& a, double s) { return s >= 0 ? Range{a.low * s, a.high * s} : Range{a.high * s, a.low * s}; }
+Range operator*(const Range& a, double s) {
+  return s >= 0 ? Range{a.low * s, a.high * s} : Range{a.high * s, a.low * s};
+}
 // `b` positive.
 Range operator/(const Range& a, const Range& b) {
-  return {a.low < 0 ? a.low / b.low : a.low / b.high, a.high > 0 ? a.high / b.low : a.high / b.high};
+  return {a.low < 0 ? a.low / b.low : a.low / b.high,
+          a.high > 0 ? a.high / b.low : a.high / b.high};
 }
 
 // Before (near) and after (far) the ray's closest approach to the axis.
@@ -53,7 +63,9 @@ struct Piece {
   double start = 0;  // in s of the segment
   double width = 1;
 
-  [[nodiscard]] std::span<const ProfilePoint> control() const { return {points.data(), degree + 1}; }
+  [[nodiscard]] std::span<const ProfilePoint> control() const {
+    return {points.data(), degree + 1};
+  }
 };
 
 void halve(const Piece& piece, Piece& left, Piece& right) {
@@ -70,7 +82,8 @@ void halve(const Piece& piece, Piece& left, Piece& right) {
                          0.5 * (right.points[i].height + right.points[i + 1].height)};
   }
   left.points[n] = right.points[0];
-  // What is left of the triangle runs backwards along the right edge already: points[i] is its i-th.
+  // What is left of the triangle runs backwards along the right edge already: points[i] is its
+  // i-th.
 }
 
 struct Hull {
@@ -87,7 +100,10 @@ void widen(Range& r, double v) {
 
 Hull hull_of(const Piece& piece) {
   const auto p = piece.control();
-  Hull h{{p[0].radius, p[0].radius}, {p[0].height, p[0].height}, {infinity, -infinity}, {infinity, -infinity}};
+  Hull h{{p[0].radius, p[0].radius},
+         {p[0].height, p[0].height},
+         {infinity, -infinity},
+         {infinity, -infinity}};
   const auto n = static_cast<double>(piece.degree);
   for (std::size_t i = 1; i < p.size(); ++i) {
     widen(h.radius, p[i].radius);
@@ -183,7 +199,9 @@ class Solver {
     const Hull hull = hull_of(piece);
     const double outer = std::max(std::fabs(hull.radius.low), std::fabs(hull.radius.high)) + slack_;
     const double inner =
-        hull.radius.has_zero() ? 0 : std::min(std::fabs(hull.radius.low), std::fabs(hull.radius.high)) - slack_;
+        hull.radius.has_zero()
+            ? 0
+            : std::min(std::fabs(hull.radius.low), std::fabs(hull.radius.high)) - slack_;
     if (outer < closest_) return;
     const Range level = slab(hull.height.low - slack_, hull.height.high + slack_);
     const Range reach = meet(level, window_);
@@ -279,8 +297,10 @@ class Solver {
     const Sample last = function(evaluate_profile(control, 1));
     const bool change = (first.value < 0) != (last.value < 0);
     if (!change) {
-      if (std::fabs(first.value) <= first.error) accept(piece.start, first.t, branches);
-      else if (std::fabs(last.value) <= last.error) accept(piece.start + piece.width, last.t, branches);
+      if (std::fabs(first.value) <= first.error)
+        accept(piece.start, first.t, branches);
+      else if (std::fabs(last.value) <= last.error)
+        accept(piece.start + piece.width, last.t, branches);
       return;
     }
     double low = 0;
@@ -293,7 +313,8 @@ class Solver {
       if (at.value == 0) break;
       ((at.value < 0) == (first.value < 0) ? low : high) = u;
       const double next = u - at.value / at.slope;
-      const bool settled = std::fabs(next - u) <= 2 * unit_roundoff || high - low <= 2 * unit_roundoff;
+      const bool settled =
+          std::fabs(next - u) <= 2 * unit_roundoff || high - low <= 2 * unit_roundoff;
       u = next;
       if (settled) break;
     }
@@ -304,7 +325,8 @@ class Solver {
   // A piece too narrow to divide on which nothing is monotone: the ray touches the surface there.
   void accept_degenerate(const Piece& piece, Branches branches, const Range& reach) {
     double t = std::clamp(middle_, reach.low, reach.high);
-    if (a_ == 0 || branches != both_branches) t = std::clamp(local_t(t_min_), reach.low, reach.high);
+    if (a_ == 0 || branches != both_branches)
+      t = std::clamp(local_t(t_min_), reach.low, reach.high);
     if (d_.y != 0) t = (evaluate_profile(piece.control(), 0.5).point.height - o_.y) / d_.y;
     accept(piece.start + 0.5 * piece.width, t, both_branches);
   }
@@ -318,7 +340,8 @@ class Solver {
   [[nodiscard]] Residual residual(double s, double t) const {
     const ProfileJet jet = evaluate_profile(revolve_.profile().segment(segment_), s);
     const double square = rho_squared(t);
-    return {jet, square - jet.point.radius * jet.point.radius, o_.y + t * d_.y - jet.point.height, std::sqrt(square)};
+    return {jet, square - jet.point.radius * jet.point.radius, o_.y + t * d_.y - jet.point.height,
+            std::sqrt(square)};
   }
   [[nodiscard]] double size_of(const Residual& r) const {
     const double reach = r.rho + std::fabs(r.jet.point.radius);
@@ -370,7 +393,8 @@ class Solver {
   void add_to_all(const ShapeHit& hit) {
     const double same = std::ldexp(64 * slack_, exponent_);
     for (const ShapeHit& h : *all_) {
-      const double apart = std::fabs((static_cast<double>(h.part) - static_cast<double>(hit.part)) + (h.a - hit.a));
+      const double apart =
+          std::fabs((static_cast<double>(h.part) - static_cast<double>(hit.part)) + (h.a - hit.a));
       if (std::fabs(h.t - hit.t) <= same && apart <= gamma(4096)) return;
     }
     all_->push_back(hit);
@@ -385,8 +409,8 @@ class Solver {
   Vector3 d_;
   int exponent_ = 0;
   double shift_ = 0;
-  double slack_ = 0;    // how far off the surface a ray may pass and still be said to meet it
-  double a_ = 0;        // |d|^2 and o.d across the axis
+  double slack_ = 0;  // how far off the surface a ray may pass and still be said to meet it
+  double a_ = 0;      // |d|^2 and o.d across the axis
   double b_ = 0;
   double middle_ = 0;   // t of the closest approach to the axis
   double closest_ = 0;  // and its distance

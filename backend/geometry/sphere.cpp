@@ -10,7 +10,8 @@ namespace scenec::backend {
 bool intersect(const Sphere& sphere, const Ray& ray, ShapeHit& out) {
   const double s = safe_scale(ray.direction);  // 1 but for absurd lengths, which would not square
   RootPair roots;
-  if (!line_meets_sphere(ray.origin - sphere.center, s * ray.direction, sphere.radius, roots)) return false;
+  if (!line_meets_sphere(ray.origin - sphere.center, s * ray.direction, sphere.radius, roots))
+    return false;
   if (s != 1) roots = {roots.near * s, roots.far * s};
   double t = 0;
   if (!first_root_within(roots, ray.t_min, ray.t_max, t) || std::isinf(t)) return false;
@@ -34,9 +35,9 @@ Surface surface(const Sphere& sphere, const Ray& ray, const ShapeHit& hit) {
   const Vector3 p = raw_length > 0 ? raw * (r / raw_length) : Vector3{0, r, 0};
   Surface s;
   s.point = sphere.center + p;
-  // The pull leaves 5 roundings of p. A second ray judges its origin by |o - c|^2 - r^2, which knows
-  // it to 3 u r along the normal: below gamma(8) |p| there. Adding the centre rounds once more, and
-  // subtracting it again once.
+  // The pull leaves 5 roundings of p. A second ray judges its origin by |o - c|^2 - r^2, which
+  // knows it to 3 u r along the normal: below gamma(8) |p| there. Adding the centre rounds once
+  // more, and subtracting it again once.
   s.error = gamma(8) * abs(p) + gamma(2) * abs(as_vector(s.point));
   s.geometric_normal = s.shading_normal = as_normal(p);
   const double rho = std::sqrt(p.x * p.x + p.z * p.z);

@@ -22,7 +22,8 @@ RayShear::RayShear(const Ray& ray) : origin(ray.origin) {
 }
 
 bool intersect(const Triangle& triangle, const Ray& ray, ShapeHit& out) {
-  return intersect_triangle(RayShear(ray), triangle.a, triangle.b, triangle.c, ray.t_min, ray.t_max, out);
+  return intersect_triangle(RayShear(ray), triangle.a, triangle.b, triangle.c, ray.t_min, ray.t_max,
+                            out);
 }
 
 Bounds3 bounds(const Triangle& triangle) {
@@ -49,7 +50,8 @@ Surface surface(const Triangle& triangle, const Ray&, const ShapeHit& hit) {
   s.u = b1;
   s.v = b2;
   s.error = gamma(7) * (abs(a) + abs(b) + abs(c)) +
-            planar_self_error(n, std::fmax(length(triangle.c - triangle.b), std::fmax(length(s.dp_du), length(s.dp_dv))));
+            planar_self_error(n, std::fmax(length(triangle.c - triangle.b),
+                                           std::fmax(length(s.dp_du), length(s.dp_dv))));
   return s;
 }
 

@@ -1,13 +1,15 @@
 // A triangle; outer side counter-clockwise.
 //
 // Domain:     finite vertices; finite ray.
-// Method:     Woop, Benthin, Wald 2013: vertices relative to the ray origin, sheared so that the ray
+// Method:     Woop, Benthin, Wald 2013: vertices relative to the ray origin, sheared so that the
+// ray
 //             runs along its largest axis; edge functions a*b - c*d, exactly antisymmetric in an
 //             edge's ends because nothing is fused.
 // Error:      inside or outside consistent for both triangles at a shared edge (no leak, ever);
 //             t within gamma(16) |A||B||C| / (2 area) of distance, A, B, C the vertices seen from
 //             the origin.
-// Degenerate: zero determinant (zero area, ray in the plane), non-finite t: miss. Zero edge function
+// Degenerate: zero determinant (zero area, ray in the plane), non-finite t: miss. Zero edge
+// function
 //             counts as inside, so edges and vertices are hits of all that share them.
 // Proof:      tests/unit/backend/geometry/triangle_test.cpp (G11-G14).
 #pragma once
@@ -50,8 +52,9 @@ struct RayShear {
 
 // The kernel shared by triangles and meshes. `a`, `b` of the hit are the barycentric weights of the
 // second and third vertex.
-[[nodiscard]] inline bool intersect_triangle(const RayShear& shear, const Point3& pa, const Point3& pb,
-                                             const Point3& pc, double t_min, double t_max, ShapeHit& out) {
+[[nodiscard]] inline bool intersect_triangle(const RayShear& shear, const Point3& pa,
+                                             const Point3& pb, const Point3& pc, double t_min,
+                                             double t_max, ShapeHit& out) {
   const RayShear::Sheared a = shear.of(pa);
   const RayShear::Sheared b = shear.of(pb);
   const RayShear::Sheared c = shear.of(pc);

@@ -46,20 +46,26 @@ struct Bounds3 {
   }
   // An empty box changes nothing.
   void grow(const Bounds3& b) {
-    min = {b.min.x < min.x ? b.min.x : min.x, b.min.y < min.y ? b.min.y : min.y, b.min.z < min.z ? b.min.z : min.z};
-    max = {b.max.x > max.x ? b.max.x : max.x, b.max.y > max.y ? b.max.y : max.y, b.max.z > max.z ? b.max.z : max.z};
+    min = {b.min.x < min.x ? b.min.x : min.x, b.min.y < min.y ? b.min.y : min.y,
+           b.min.z < min.z ? b.min.z : min.z};
+    max = {b.max.x > max.x ? b.max.x : max.x, b.max.y > max.y ? b.max.y : max.y,
+           b.max.z > max.z ? b.max.z : max.z};
   }
   [[nodiscard]] bool contains(const Point3& p) const {
-    return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y && p.z >= min.z && p.z <= max.z;
+    return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y && p.z >= min.z &&
+           p.z <= max.z;
   }
-  [[nodiscard]] bool contains(const Bounds3& b) const { return b.empty() || (contains(b.min) && contains(b.max)); }
+  [[nodiscard]] bool contains(const Bounds3& b) const {
+    return b.empty() || (contains(b.min) && contains(b.max));
+  }
 };
 
 // The box grown on every side by the absolute `error` of its corners and one ulp for the rounding
 // of the growth itself.
 [[nodiscard]] inline Bounds3 outward(const Bounds3& b, const Vector3& error = {}) {
-  return {{next_down(b.min.x - error.x), next_down(b.min.y - error.y), next_down(b.min.z - error.z)},
-          {next_up(b.max.x + error.x), next_up(b.max.y + error.y), next_up(b.max.z + error.z)}};
+  return {
+      {next_down(b.min.x - error.x), next_down(b.min.y - error.y), next_down(b.min.z - error.z)},
+      {next_up(b.max.x + error.x), next_up(b.max.y + error.y), next_up(b.max.z + error.z)}};
 }
 
 }  // namespace scenec::backend

@@ -20,19 +20,35 @@ struct Rgb {
   constexpr Rgb& operator*=(double s) { return *this = Rgb(r * s, g * s, b * s); }
 };
 
-constexpr Rgb operator+(Rgb a, const Rgb& b) { return a += b; }
-constexpr Rgb operator-(const Rgb& a, const Rgb& b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
-constexpr Rgb operator*(Rgb a, const Rgb& b) { return a *= b; }
-constexpr Rgb operator*(Rgb a, double s) { return a *= s; }
-constexpr Rgb operator*(double s, Rgb a) { return a *= s; }
-constexpr Rgb operator/(const Rgb& a, double s) { return {a.r / s, a.g / s, a.b / s}; }
+constexpr Rgb operator+(Rgb a, const Rgb& b) {
+  return a += b;
+}
+constexpr Rgb operator-(const Rgb& a, const Rgb& b) {
+  return {a.r - b.r, a.g - b.g, a.b - b.b};
+}
+constexpr Rgb operator*(Rgb a, const Rgb& b) {
+  return a *= b;
+}
+constexpr Rgb operator*(Rgb a, double s) {
+  return a *= s;
+}
+constexpr Rgb operator*(double s, Rgb a) {
+  return a *= s;
+}
+constexpr Rgb operator/(const Rgb& a, double s) {
+  return {a.r / s, a.g / s, a.b / s};
+}
 
-[[nodiscard]] constexpr double luminance(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+[[nodiscard]] constexpr double luminance(const Rgb& c) {
+  return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
+}
 [[nodiscard]] constexpr double max_component(const Rgb& c) {
   const double m = c.r > c.g ? c.r : c.g;
   return m > c.b ? m : c.b;
 }
-[[nodiscard]] constexpr bool is_black(const Rgb& c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+[[nodiscard]] constexpr bool is_black(const Rgb& c) {
+  return c.r == 0 && c.g == 0 && c.b == 0;
+}
 [[nodiscard]] inline bool is_finite(const Rgb& c) {
   return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
 }

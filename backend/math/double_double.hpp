@@ -41,7 +41,9 @@ struct DoubleDouble {
   return {p, ((a_hi * b_hi - p) + a_hi * b_lo + a_lo * b_hi) + a_lo * b_lo};
 }
 
-[[nodiscard]] constexpr DoubleDouble operator-(const DoubleDouble& a) { return {-a.hi, -a.lo}; }
+[[nodiscard]] constexpr DoubleDouble operator-(const DoubleDouble& a) {
+  return {-a.hi, -a.lo};
+}
 
 [[nodiscard]] constexpr DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble s = two_sum(a.hi, b.hi);

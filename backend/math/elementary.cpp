@@ -49,10 +49,11 @@ double horner(double x, const std::array<double, n>& coefficients) {
 
 // 1/k! for k = first, first + 2, ... with alternating signs beginning with minus.
 constexpr std::array<double, 8> sin_series{
-    -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000,
-    1.0 / 355687428096000};
-constexpr std::array<double, 7> cos_series{1.0 / 24,       -1.0 / 720,      1.0 / 40320,         -1.0 / 3628800,
-                                           1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
+    -1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
+    -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
+constexpr std::array<double, 7> cos_series{
+    1.0 / 24,        -1.0 / 720,         1.0 / 40320,         -1.0 / 3628800,
+    1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
 
 // |r| slightly above pi/4 at most.
 DoubleDouble sin_of_reduced(const DoubleDouble& r) {
@@ -107,7 +108,8 @@ constexpr std::array<DoubleDouble, 17> atan_of_sixteenths{{
     {0x1.819d0b7158a4dp-1, -0x1.bf76229d3b917p-56},
     {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55},
 }};
-constexpr std::array<double, 6> atan_series{-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13};
+constexpr std::array<double, 6> atan_series{-1.0 / 3, 1.0 / 5,   -1.0 / 7,
+                                            1.0 / 9,  -1.0 / 11, 1.0 / 13};
 
 // atan(q) for 0 <= q <= 1: atan(c) + atan((q - c) / (1 + q c)) with c the nearest sixteenth.
 DoubleDouble atan_of_ratio(const DoubleDouble& q) {
@@ -143,8 +145,8 @@ DoubleDouble cosine_of_sine(double x) {
 }
 
 constexpr std::array<double, 12> exp_series{
-    1.0 / 2,      1.0 / 6,       1.0 / 24,       1.0 / 120,       1.0 / 720,       1.0 / 5040,
-    1.0 / 40320,  1.0 / 362880,  1.0 / 3628800,  1.0 / 39916800,  1.0 / 479001600, 1.0 / 6227020800};
+    1.0 / 2,     1.0 / 6,      1.0 / 24,      1.0 / 120,      1.0 / 720,       1.0 / 5040,
+    1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800};
 
 double exp_of(const DoubleDouble& x) {
   if (x.hi > 710) return infinity;
@@ -160,8 +162,9 @@ double exp_of(const DoubleDouble& x) {
 
 constexpr DoubleDouble one_third{1.0 / 3, 0x1.5555555555555p-56};
 constexpr DoubleDouble one_fifth{1.0 / 5, -0x1.999999999999ap-57};
-constexpr std::array<double, 11> atanh_tail{1.0 / 7,  1.0 / 9,  1.0 / 11, 1.0 / 13, 1.0 / 15, 1.0 / 17,
-                                            1.0 / 19, 1.0 / 21, 1.0 / 23, 1.0 / 25, 1.0 / 27};
+constexpr std::array<double, 11> atanh_tail{1.0 / 7,  1.0 / 9,  1.0 / 11, 1.0 / 13,
+                                            1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21,
+                                            1.0 / 23, 1.0 / 25, 1.0 / 27};
 
 // log of a positive finite x to about 2^-66 relative: x = 2^k m, log m = 2 atanh((m-1)/(m+1)).
 DoubleDouble log_of(double x) {
@@ -180,12 +183,17 @@ DoubleDouble log_of(double x) {
   const DoubleDouble half = s + s * (z * third);
   const double k = exponent;
   const DoubleDouble mid = two_product(k, ln2_mid);
-  const DoubleDouble shift = DoubleDouble{k * ln2_hi, 0} + DoubleDouble{mid.hi, mid.lo + k * ln2_lo};
+  const DoubleDouble shift =
+      DoubleDouble{k * ln2_hi, 0} + DoubleDouble{mid.hi, mid.lo + k * ln2_lo};
   return shift + DoubleDouble{2 * half.hi, 2 * half.lo};
 }
 
-bool is_integer(double y) { return std::floor(y) == y; }
-bool is_odd(double y) { return is_integer(y) && std::fabs(y) < 0x1p53 && !is_integer(y * 0.5); }
+bool is_integer(double y) {
+  return std::floor(y) == y;
+}
+bool is_odd(double y) {
+  return is_integer(y) && std::fabs(y) < 0x1p53 && !is_integer(y * 0.5);
+}
 
 }  // namespace
 
@@ -196,15 +204,23 @@ SinCos sin_cos(double x) {
   const double s = sin_of_reduced(angle.r).hi;
   const double c = cos_of_reduced(angle.r).hi;
   switch (angle.quadrant) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 
-double sin(double x) { return sin_cos(x).sin; }
-double cos(double x) { return sin_cos(x).cos; }
+double sin(double x) {
+  return sin_cos(x).sin;
+}
+double cos(double x) {
+  return sin_cos(x).cos;
+}
 double tan(double x) {
   if (!(std::fabs(x) <= angle_limit)) return not_a_number;
   if (std::fabs(x) < 0x1p-27) return x;

@@ -20,12 +20,18 @@ struct Frame {
   UnitVector3 z;
 
   // Coordinates in the frame of a vector given in the frame's outer space.
-  [[nodiscard]] Vector3 local_of(const Vector3& v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+  [[nodiscard]] Vector3 local_of(const Vector3& v) const {
+    return {dot(v, x), dot(v, y), dot(v, z)};
+  }
   [[nodiscard]] Vector3 world_of(const Vector3& v) const {
     return x.vector() * v.x + y.vector() * v.y + z.vector() * v.z;
   }
-  [[nodiscard]] UnitVector3 local_of(const UnitVector3& v) const { return normalized(local_of(v.vector()), v); }
-  [[nodiscard]] UnitVector3 world_of(const UnitVector3& v) const { return normalized(world_of(v.vector()), v); }
+  [[nodiscard]] UnitVector3 local_of(const UnitVector3& v) const {
+    return normalized(local_of(v.vector()), v);
+  }
+  [[nodiscard]] UnitVector3 world_of(const UnitVector3& v) const {
+    return normalized(world_of(v.vector()), v);
+  }
 };
 
 [[nodiscard]] inline Frame frame_about(const UnitVector3& z) {

@@ -30,19 +30,24 @@ class SampleRandom {
   constexpr SampleRandom(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample)
       : key_(absorb(absorb(absorb(0, seed), pixel), sample)) {}
 
-  [[nodiscard]] constexpr std::uint64_t bits(std::uint32_t dimension) const { return absorb(key_, dimension); }
-  [[nodiscard]] constexpr double unit(std::uint32_t dimension) const { return unit_double(bits(dimension)); }
+  [[nodiscard]] constexpr std::uint64_t bits(std::uint32_t dimension) const {
+    return absorb(key_, dimension);
+  }
+  [[nodiscard]] constexpr double unit(std::uint32_t dimension) const {
+    return unit_double(bits(dimension));
+  }
 
  private:
   // Injective in `value` for a fixed key; the odd constant keeps (0, 0) from being a fixed point.
   [[nodiscard]] static constexpr std::uint64_t absorb(std::uint64_t key, std::uint64_t value) {
-    return mix_bits(mix_bits(value + 0x9e3779b97f4a7c15ULL) ^ (key * 0xd1342543de82ef95ULL + 0x2545f4914f6cdd1dULL));
+    return mix_bits(mix_bits(value + 0x9e3779b97f4a7c15ULL) ^
+                    (key * 0xd1342543de82ef95ULL + 0x2545f4914f6cdd1dULL));
   }
   std::uint64_t key_;
 };
 
-[[nodiscard]] constexpr double random_unit(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample,
-                                           std::uint32_t dimension) {
+[[nodiscard]] constexpr double random_unit(std::uint64_t seed, std::uint64_t pixel,
+                                           std::uint64_t sample, std::uint32_t dimension) {
   return SampleRandom(seed, pixel, sample).unit(dimension);
 }
 

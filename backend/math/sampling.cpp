@@ -5,7 +5,9 @@
 namespace scenec::backend {
 namespace {
 
-double positive_root(double x) { return x > 0 ? std::sqrt(x) : 0.0; }
+double positive_root(double x) {
+  return x > 0 ? std::sqrt(x) : 0.0;
+}
 
 // The angle of (x, y) as a fraction of the circle in [0, 1).
 double turn_of(double y, double x) {
@@ -63,21 +65,35 @@ UnitVector3 sample_cosine_hemisphere(Sample2 s) {
   return UnitVector3::assume_unit({d.u, d.v, positive_root(1 - d.u * d.u - d.v * d.v)});
 }
 
-Sample2 invert_cosine_hemisphere(const UnitVector3& w) { return invert_concentric_disk({w.x(), w.y()}); }
+Sample2 invert_cosine_hemisphere(const UnitVector3& w) {
+  return invert_concentric_disk({w.x(), w.y()});
+}
 
-UnitVector3 sample_uniform_hemisphere(Sample2 s) { return direction_of(s.u, s.v); }
-Sample2 invert_uniform_hemisphere(const UnitVector3& w) { return {one_minus_z(w), turn_of(w.y(), w.x())}; }
+UnitVector3 sample_uniform_hemisphere(Sample2 s) {
+  return direction_of(s.u, s.v);
+}
+Sample2 invert_uniform_hemisphere(const UnitVector3& w) {
+  return {one_minus_z(w), turn_of(w.y(), w.x())};
+}
 
-UnitVector3 sample_uniform_sphere(Sample2 s) { return direction_of(2 * s.u, s.v); }
-Sample2 invert_uniform_sphere(const UnitVector3& w) { return {0.5 * one_minus_z(w), turn_of(w.y(), w.x())}; }
+UnitVector3 sample_uniform_sphere(Sample2 s) {
+  return direction_of(2 * s.u, s.v);
+}
+Sample2 invert_uniform_sphere(const UnitVector3& w) {
+  return {0.5 * one_minus_z(w), turn_of(w.y(), w.x())};
+}
 
-double one_minus_cos(double sin_squared) { return sin_squared / (1 + positive_root(1 - sin_squared)); }
+double one_minus_cos(double sin_squared) {
+  return sin_squared / (1 + positive_root(1 - sin_squared));
+}
 
 UnitVector3 sample_uniform_cone(Sample2 s, double sin_squared_max) {
   return direction_of(s.u * one_minus_cos(sin_squared_max), s.v);
 }
 
-double pdf_uniform_cone(double sin_squared_max) { return 1 / (2 * pi * one_minus_cos(sin_squared_max)); }
+double pdf_uniform_cone(double sin_squared_max) {
+  return 1 / (2 * pi * one_minus_cos(sin_squared_max));
+}
 
 Sample2 invert_uniform_cone(const UnitVector3& w, double sin_squared_max) {
   return {one_minus_z(w) / one_minus_cos(sin_squared_max), turn_of(w.y(), w.x())};

@@ -22,20 +22,28 @@ struct Sample2 {
 
 // The unit disk (x, y), area-preserving.
 [[nodiscard]] Sample2 sample_concentric_disk(Sample2 s);
-[[nodiscard]] constexpr double pdf_concentric_disk() { return 1 / pi; }
+[[nodiscard]] constexpr double pdf_concentric_disk() {
+  return 1 / pi;
+}
 [[nodiscard]] Sample2 invert_concentric_disk(Sample2 point);
 
 // Directions about +z with density cos / pi.
 [[nodiscard]] UnitVector3 sample_cosine_hemisphere(Sample2 s);
-[[nodiscard]] constexpr double pdf_cosine_hemisphere(double cos_theta) { return cos_theta > 0 ? cos_theta / pi : 0; }
+[[nodiscard]] constexpr double pdf_cosine_hemisphere(double cos_theta) {
+  return cos_theta > 0 ? cos_theta / pi : 0;
+}
 [[nodiscard]] Sample2 invert_cosine_hemisphere(const UnitVector3& w);
 
 [[nodiscard]] UnitVector3 sample_uniform_hemisphere(Sample2 s);
-[[nodiscard]] constexpr double pdf_uniform_hemisphere() { return 1 / (2 * pi); }
+[[nodiscard]] constexpr double pdf_uniform_hemisphere() {
+  return 1 / (2 * pi);
+}
 [[nodiscard]] Sample2 invert_uniform_hemisphere(const UnitVector3& w);
 
 [[nodiscard]] UnitVector3 sample_uniform_sphere(Sample2 s);
-[[nodiscard]] constexpr double pdf_uniform_sphere() { return 1 / (4 * pi); }
+[[nodiscard]] constexpr double pdf_uniform_sphere() {
+  return 1 / (4 * pi);
+}
 [[nodiscard]] Sample2 invert_uniform_sphere(const UnitVector3& w);
 
 // 1 - cos of the angle whose squared sine is `sin_squared` (angle up to 90 degrees).
@@ -49,6 +57,8 @@ struct Sample2 {
 
 // Barycentric weights (b1, b2) of a triangle's second and third vertex, uniform in area.
 [[nodiscard]] Sample2 sample_uniform_triangle(Sample2 s);
-[[nodiscard]] constexpr double pdf_uniform_triangle(double area) { return 1 / area; }
+[[nodiscard]] constexpr double pdf_uniform_triangle(double area) {
+  return 1 / area;
+}
 
 }  // namespace scenec::backend

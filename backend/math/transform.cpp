@@ -9,7 +9,8 @@ namespace {
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
 double determinant_of(const Matrix3& m) {
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
@@ -23,7 +24,8 @@ Matrix3 linear_part(const AffineRows& rows) {
 Matrix3 product(const Matrix3& a, const Matrix3& b) {
   Matrix3 c{};
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+    for (std::size_t j = 0; j < 3; ++j)
+      c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
   return c;
 }
 
@@ -62,7 +64,8 @@ int exponent_of(double v) {
 
 double row_norm(const AffineRows& m) {
   double norm = 0;
-  for (const auto& row : m) norm = std::fmax(norm, std::fabs(row[0]) + std::fabs(row[1]) + std::fabs(row[2]));
+  for (const auto& row : m)
+    norm = std::fmax(norm, std::fabs(row[0]) + std::fabs(row[1]) + std::fabs(row[2]));
   return norm;
 }
 
@@ -93,7 +96,8 @@ std::optional<Transform> Transform::from_rows(const AffineRows& rows) {
   AffineRows backward{};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) backward[i][j] = std::ldexp(inverse[i][j], -shift[j]);
-    backward[i][3] = -(backward[i][0] * rows[0][3] + backward[i][1] * rows[1][3] + backward[i][2] * rows[2][3]);
+    backward[i][3] =
+        -(backward[i][0] * rows[0][3] + backward[i][1] * rows[1][3] + backward[i][2] * rows[2][3]);
   }
   if (!all_finite(backward)) return std::nullopt;
   return Transform(rows, backward);
@@ -117,11 +121,17 @@ Transform Transform::scaling(const Vector3& s) {
                    {{{1 / s.x, 0, 0, 0}, {0, 1 / s.y, 0, 0}, {0, 0, 1 / s.z, 0}}});
 }
 
-bool Transform::is_identity() const { return forward_ == Transform().forward_; }
+bool Transform::is_identity() const {
+  return forward_ == Transform().forward_;
+}
 
-double Transform::determinant() const { return determinant_of(linear_part(forward_)); }
+double Transform::determinant() const {
+  return determinant_of(linear_part(forward_));
+}
 
-double Transform::condition() const { return row_norm(forward_) * row_norm(backward_); }
+double Transform::condition() const {
+  return row_norm(forward_) * row_norm(backward_);
+}
 
 Bounds3 Transform::apply(const Bounds3& b) const {
   if (b.empty()) return b;
@@ -145,10 +155,12 @@ Vector3 Transform::absolute(const AffineRows& m, const Vector3& v) {
 
 Vector3 Transform::round_trip_error(const Point3& p) const {
   if (is_identity()) return {};
-  const Vector3 forward = absolute(forward_, as_vector(p)) +
-                          Vector3{std::fabs(forward_[0][3]), std::fabs(forward_[1][3]), std::fabs(forward_[2][3])};
-  const Vector3 back = absolute(backward_, forward) +
-                       Vector3{std::fabs(backward_[0][3]), std::fabs(backward_[1][3]), std::fabs(backward_[2][3])};
+  const Vector3 forward =
+      absolute(forward_, as_vector(p)) +
+      Vector3{std::fabs(forward_[0][3]), std::fabs(forward_[1][3]), std::fabs(forward_[2][3])};
+  const Vector3 back =
+      absolute(backward_, forward) +
+      Vector3{std::fabs(backward_[0][3]), std::fabs(backward_[1][3]), std::fabs(backward_[2][3])};
   return gamma(4) * forward + gamma(16) * absolute(forward_, back);
 }
 

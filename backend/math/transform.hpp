@@ -56,10 +56,13 @@ class Transform {
   [[nodiscard]] Vector3 round_trip_error(const Point3& p) const;
 
   friend Transform operator*(const Transform& outer, const Transform& inner);
-  friend bool operator==(const Transform& a, const Transform& b) { return a.forward_ == b.forward_; }
+  friend bool operator==(const Transform& a, const Transform& b) {
+    return a.forward_ == b.forward_;
+  }
 
  private:
-  Transform(const AffineRows& forward, const AffineRows& backward) : forward_(forward), backward_(backward) {}
+  Transform(const AffineRows& forward, const AffineRows& backward)
+      : forward_(forward), backward_(backward) {}
 
   [[nodiscard]] static Point3 point(const AffineRows& m, const Point3& p) {
     return {m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
@@ -67,7 +70,8 @@ class Transform {
             m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]};
   }
   [[nodiscard]] static Vector3 vector(const AffineRows& m, const Vector3& v) {
-    return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+    return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
+            m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
             m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
   }
   [[nodiscard]] static Normal3 normal(const AffineRows& inverse, const Normal3& n) {

@@ -10,7 +10,9 @@ namespace scenec::backend {
 
 // The unit round-off of double, and the usual bound (1 + u)^n - 1 <= gamma(n) of n roundings.
 inline constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-[[nodiscard]] constexpr double gamma(int n) { return n * unit_roundoff / (1 - n * unit_roundoff); }
+[[nodiscard]] constexpr double gamma(int n) {
+  return n * unit_roundoff / (1 - n * unit_roundoff);
+}
 
 struct Vector3 {
   double x = 0;
@@ -38,7 +40,9 @@ struct Normal3 {
 class UnitVector3 {
  public:
   constexpr UnitVector3() = default;  // +z
-  [[nodiscard]] static constexpr UnitVector3 assume_unit(const Vector3& v) { return UnitVector3(v); }
+  [[nodiscard]] static constexpr UnitVector3 assume_unit(const Vector3& v) {
+    return UnitVector3(v);
+  }
 
   [[nodiscard]] constexpr double x() const { return v_.x; }
   [[nodiscard]] constexpr double y() const { return v_.y; }
@@ -46,7 +50,9 @@ class UnitVector3 {
   [[nodiscard]] constexpr const Vector3& vector() const { return v_; }
   // NOLINTNEXTLINE(google-explicit-constructor): a unit vector is a vector
   constexpr operator const Vector3&() const { return v_; }
-  [[nodiscard]] constexpr UnitVector3 operator-() const { return UnitVector3({-v_.x, -v_.y, -v_.z}); }
+  [[nodiscard]] constexpr UnitVector3 operator-() const {
+    return UnitVector3({-v_.x, -v_.y, -v_.z});
+  }
   friend constexpr bool operator==(const UnitVector3&, const UnitVector3&) = default;
 
  private:
@@ -54,17 +60,39 @@ class UnitVector3 {
   Vector3 v_{0, 0, 1};
 };
 
-constexpr Vector3 operator+(const Vector3& a, const Vector3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-constexpr Vector3 operator-(const Vector3& a, const Vector3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-constexpr Vector3 operator-(const Vector3& a) { return {-a.x, -a.y, -a.z}; }
-constexpr Vector3 operator*(const Vector3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-constexpr Vector3 operator*(double s, const Vector3& a) { return {a.x * s, a.y * s, a.z * s}; }
-constexpr Vector3 operator/(const Vector3& a, double s) { return {a.x / s, a.y / s, a.z / s}; }
-constexpr Vector3& operator+=(Vector3& a, const Vector3& b) { return a = a + b; }
-constexpr Point3 operator+(const Point3& p, const Vector3& v) { return {p.x + v.x, p.y + v.y, p.z + v.z}; }
-constexpr Point3 operator-(const Point3& p, const Vector3& v) { return {p.x - v.x, p.y - v.y, p.z - v.z}; }
-constexpr Vector3 operator-(const Point3& a, const Point3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-constexpr Normal3 operator-(const Normal3& a) { return {-a.x, -a.y, -a.z}; }
+constexpr Vector3 operator+(const Vector3& a, const Vector3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+constexpr Vector3 operator-(const Vector3& a, const Vector3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+constexpr Vector3 operator-(const Vector3& a) {
+  return {-a.x, -a.y, -a.z};
+}
+constexpr Vector3 operator*(const Vector3& a, double s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+constexpr Vector3 operator*(double s, const Vector3& a) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+constexpr Vector3 operator/(const Vector3& a, double s) {
+  return {a.x / s, a.y / s, a.z / s};
+}
+constexpr Vector3& operator+=(Vector3& a, const Vector3& b) {
+  return a = a + b;
+}
+constexpr Point3 operator+(const Point3& p, const Vector3& v) {
+  return {p.x + v.x, p.y + v.y, p.z + v.z};
+}
+constexpr Point3 operator-(const Point3& p, const Vector3& v) {
+  return {p.x - v.x, p.y - v.y, p.z - v.z};
+}
+constexpr Vector3 operator-(const Point3& a, const Point3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+constexpr Normal3 operator-(const Normal3& a) {
+  return {-a.x, -a.y, -a.z};
+}
 
 [[nodiscard]] constexpr double dot(const Vector3& a, const Vector3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -74,14 +102,26 @@ constexpr Normal3 operator-(const Normal3& a) { return {-a.x, -a.y, -a.z}; }
 [[nodiscard]] constexpr Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-[[nodiscard]] constexpr double length_squared(const Vector3& a) { return dot(a, a); }
+[[nodiscard]] constexpr double length_squared(const Vector3& a) {
+  return dot(a, a);
+}
 
-[[nodiscard]] constexpr Vector3 as_vector(const Point3& p) { return {p.x, p.y, p.z}; }
-[[nodiscard]] constexpr Vector3 as_vector(const Normal3& n) { return {n.x, n.y, n.z}; }
-[[nodiscard]] constexpr Point3 as_point(const Vector3& v) { return {v.x, v.y, v.z}; }
-[[nodiscard]] constexpr Normal3 as_normal(const Vector3& v) { return {v.x, v.y, v.z}; }
+[[nodiscard]] constexpr Vector3 as_vector(const Point3& p) {
+  return {p.x, p.y, p.z};
+}
+[[nodiscard]] constexpr Vector3 as_vector(const Normal3& n) {
+  return {n.x, n.y, n.z};
+}
+[[nodiscard]] constexpr Point3 as_point(const Vector3& v) {
+  return {v.x, v.y, v.z};
+}
+[[nodiscard]] constexpr Normal3 as_normal(const Vector3& v) {
+  return {v.x, v.y, v.z};
+}
 
-[[nodiscard]] inline Vector3 abs(const Vector3& a) { return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}; }
+[[nodiscard]] inline Vector3 abs(const Vector3& a) {
+  return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)};
+}
 [[nodiscard]] inline double max_abs(const Vector3& a) {
   return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z)));
 }
@@ -102,7 +142,9 @@ constexpr void set_component(Point3& a, int axis, double value) {
   // One test for three: any inf or NaN makes the sum of a - a differ from 0.
   return (a.x - a.x) + (a.y - a.y) + (a.z - a.z) == 0;
 }
-[[nodiscard]] inline bool is_finite(const Point3& a) { return is_finite(as_vector(a)); }
+[[nodiscard]] inline bool is_finite(const Point3& a) {
+  return is_finite(as_vector(a));
+}
 
 // A power of two s such that the squares of a * s neither overflow nor lose bits to underflow.
 // 1 for ordinary vectors; scaling by it is exact.
@@ -120,7 +162,9 @@ constexpr void set_component(Point3& a, int axis, double value) {
   const Vector3 b = a * s;
   return std::sqrt(dot(b, b)) / s;
 }
-[[nodiscard]] inline double distance(const Point3& a, const Point3& b) { return length(a - b); }
+[[nodiscard]] inline double distance(const Point3& a, const Point3& b) {
+  return length(a - b);
+}
 
 // The direction of `a`; the zero vector (and NaN) gives `fallback`.
 [[nodiscard]] inline UnitVector3 normalized(const Vector3& a, const UnitVector3& fallback = {}) {

@@ -41,7 +41,8 @@ void expect_sound(const Bvh& bvh, const std::vector<Bounds3>& boxes, std::size_t
   for (std::uint32_t i = 0; i < bvh.nodes().size(); ++i) {
     const BvhNode& node = bvh.nodes()[i];
     if (node.count == 0) {
-      EXPECT_TRUE(node.box.contains(bvh.nodes()[i + 1].box) && node.box.contains(bvh.nodes()[node.first].box));
+      EXPECT_TRUE(node.box.contains(bvh.nodes()[i + 1].box) &&
+                  node.box.contains(bvh.nodes()[node.first].box));
       continue;
     }
     in_leaves += node.count;
@@ -117,10 +118,12 @@ TEST(Bvh, WalkFindsEveryBoxTheRayMeets) {
         const Ray ray{{boxes[i].min.x, boxes[i].min.y, boxes[i].max.z}, {x, 0, z}};
         const RayBoxTest test(ray);
         bool seen = false;
-        visit_leaves(bvh, test, ray.t_min, ray.t_max, [&](std::uint32_t first, std::uint32_t count) {
-          for (std::uint32_t k = first; k < first + count; ++k) seen = seen || bvh.order()[k] == i;
-          return false;
-        });
+        visit_leaves(bvh, test, ray.t_min, ray.t_max,
+                     [&](std::uint32_t first, std::uint32_t count) {
+                       for (std::uint32_t k = first; k < first + count; ++k)
+                         seen = seen || bvh.order()[k] == i;
+                       return false;
+                     });
         ASSERT_TRUE(seen) << i << " " << x << " " << z;  // the origin is in the box
       }
   }

@@ -28,19 +28,30 @@ const std::vector<ProfilePoint> vase{{1, 0}, {2, 0.7}, {0.2, 1.3}, {1, 2}};
 
 // One of each kind of unit size about the origin.
 void add_shape(SceneAccel& accel, std::uint32_t item, int kind, SceneAccel::TransformIndex place) {
-  static const auto mesh = std::make_shared<const MeshAccel>(testing_support::displaced_sphere(12, 0), pool());
+  static const auto mesh =
+      std::make_shared<const MeshAccel>(testing_support::displaced_sphere(12, 0), pool());
   static const auto revolve = std::make_shared<const Revolve>(bezier_profile(vase));
   switch (kind) {
-    case 0: return accel.add(item, Sphere{{0, 0, 0}, 1}, place);
-    case 1: return accel.add(item, Triangle{{-1, 0, 0}, {1, 0, 0.5}, {0, 1, 0}}, place);
-    case 2: return accel.add(item, Quad{{-1, -1, 0}, {2, 0, 0}, {0.5, 2, 0}}, place);
-    case 3: return accel.add(item, Disk{{0, 0, 0}, normalized(Vector3{1, 2, 3}), 1}, place);
-    case 4: return accel.add(item, Box{{-1, -1, 0}, {1, 1, 1}}, place);
-    case 5: return accel.add(item, Cylinder({0, 0, 0}, {1, 1, 0}, 0.5, true), place);
-    case 6: return accel.add(item, Cylinder({0, 0, 0}, {0, 0, 1}, 0.5, false), place);
-    case 7: return accel.add_mesh(item, mesh, place);
-    case 8: return accel.add_revolve(item, revolve, place);
-    default: return accel.add(item, Plane{{0, 1, 0}, 0}, place);
+    case 0:
+      return accel.add(item, Sphere{{0, 0, 0}, 1}, place);
+    case 1:
+      return accel.add(item, Triangle{{-1, 0, 0}, {1, 0, 0.5}, {0, 1, 0}}, place);
+    case 2:
+      return accel.add(item, Quad{{-1, -1, 0}, {2, 0, 0}, {0.5, 2, 0}}, place);
+    case 3:
+      return accel.add(item, Disk{{0, 0, 0}, normalized(Vector3{1, 2, 3}), 1}, place);
+    case 4:
+      return accel.add(item, Box{{-1, -1, 0}, {1, 1, 1}}, place);
+    case 5:
+      return accel.add(item, Cylinder({0, 0, 0}, {1, 1, 0}, 0.5, true), place);
+    case 6:
+      return accel.add(item, Cylinder({0, 0, 0}, {0, 0, 1}, 0.5, false), place);
+    case 7:
+      return accel.add_mesh(item, mesh, place);
+    case 8:
+      return accel.add_revolve(item, revolve, place);
+    default:
+      return accel.add(item, Plane{{0, 1, 0}, 0}, place);
   }
 }
 constexpr int kinds = 10;
@@ -49,7 +60,8 @@ SceneAccel random_world(std::uint64_t seed, int count, double spread) {
   Draw draw(seed);
   SceneAccel accel;
   for (int i = 0; i < count; ++i) {
-    const Transform place = Transform::translation(as_vector(draw.point(spread))) * draw.affine(0.5);
+    const Transform place =
+        Transform::translation(as_vector(draw.point(spread))) * draw.affine(0.5);
     add_shape(accel, static_cast<std::uint32_t>(i), i % (kinds - 1), accel.add_transform(place));
   }
   accel.build(pool());
@@ -73,7 +85,8 @@ TEST(SceneAccel, AgreesWithBruteForce) {
   const SceneAccel accel = random_world(1, 200, 10);
   Draw draw(2);
   for (int i = 0; i < 5000; ++i) expect_same(accel, Ray{draw.point(15), draw.direction()});
-  for (int i = 0; i < 2000; ++i) expect_same(accel, Ray{draw.point(1e6), as_vector(draw.point(10)), 0, 1});
+  for (int i = 0; i < 2000; ++i)
+    expect_same(accel, Ray{draw.point(1e6), as_vector(draw.point(10)), 0, 1});
 }
 
 TEST(SceneAccel, AxisParallelAndAwkwardDirections) {
@@ -82,7 +95,8 @@ TEST(SceneAccel, AxisParallelAndAwkwardDirections) {
     const double x = i % 5;
     const double y = i / 5 % 5;
     const double z = i / 25;
-    accel.add(i, Box{{x, y, z}, {x + 1, y + 1, i % 2 == 0 ? z : z + 1}});  // touching, half of them flat
+    accel.add(
+        i, Box{{x, y, z}, {x + 1, y + 1, i % 2 == 0 ? z : z + 1}});  // touching, half of them flat
   }
   accel.build(pool());
   const double parts[] = {0, -0.0, 1e-310, -1e-310, 1, -1, 1e300};
@@ -134,7 +148,9 @@ TEST(SceneAccel, SpawnedRaysLeaveTheirSurface) {
       // Outward on the far side of the tangent plane, also at grazing angles.
       for (int n = 0; n < 8; ++n) {
         const Vector3 d = draw.direction();
-        const Vector3 side = n % 2 == 0 ? d : d - 0.9999 * dot(d, hit.geometric_normal) * hit.geometric_normal.vector();
+        const Vector3 side =
+            n % 2 == 0 ? d
+                       : d - 0.9999 * dot(d, hit.geometric_normal) * hit.geometric_normal.vector();
         const Vector3 out = dot(side, hit.geometric_normal) < 0 ? -side : side;
         ++tested;
         Hit again;
@@ -148,8 +164,9 @@ TEST(SceneAccel, SpawnedRaysLeaveTheirSurface) {
         }
         if (accel.intersect(ray, again)) {
           ++self_hits;
-          ADD_FAILURE_AT(__FILE__, __LINE__) << "kind " << kind << " size " << size << " t " << again.t << " condition "
-                                             << place.condition() << " n.d " << dot(out, hit.geometric_normal);
+          ADD_FAILURE_AT(__FILE__, __LINE__)
+              << "kind " << kind << " size " << size << " t " << again.t << " condition "
+              << place.condition() << " n.d " << dot(out, hit.geometric_normal);
           if (self_hits > 10) return;
         }
       }
@@ -160,14 +177,16 @@ TEST(SceneAccel, SpawnedRaysLeaveTheirSurface) {
 
 TEST(SceneAccel, MeshesDoNotLeakThroughTheTree) {
   for (const double offset : {0.0, 1e6}) {
-    const auto mesh = std::make_shared<const MeshAccel>(testing_support::displaced_sphere(24, offset), pool());
+    const auto mesh =
+        std::make_shared<const MeshAccel>(testing_support::displaced_sphere(24, offset), pool());
     SceneAccel accel;
     accel.add_mesh(0, mesh);
     accel.build(pool());
     Draw draw(6);
     for (int i = 0; i < 50000; ++i) {
       const TriangleMesh& m = mesh->mesh();
-      const Face& f = m.faces[static_cast<std::size_t>(draw.unit() * static_cast<double>(m.faces.size()))];
+      const Face& f =
+          m.faces[static_cast<std::size_t>(draw.unit() * static_cast<double>(m.faces.size()))];
       const double along = i % 2 == 0 ? draw.unit() : 0;
       const Point3 target = m.positions[f[0]] + along * (m.positions[f[1]] - m.positions[f[0]]);
       const Point3 origin = Point3{offset, offset, offset} + as_vector(draw.point(0.3));
@@ -185,7 +204,9 @@ TEST(SceneAccel, InstancesInInstances) {
   pair->add_instance(4, leaf, pair->add_transform(Transform::translation({-2, 0, 0})));
   pair->build(pool());
   SceneAccel world;
-  world.add_instance(9, pair, world.add_transform(Transform::translation({0, 0, 10}) * Transform::scaling({1, 2, -3})));
+  world.add_instance(
+      9, pair,
+      world.add_transform(Transform::translation({0, 0, 10}) * Transform::scaling({1, 2, -3})));
   world.build(pool());
   Hit hit;
   ASSERT_TRUE(world.intersect(Ray{{-2, 0, 0}, {0, 0, 2}}, hit));
@@ -265,7 +286,8 @@ TEST(SceneAccel, ScalingByPowersOfTwoKeepsTheBits) {
       const Ray ray{draw.point(15), draw.direction()};
       Hit a;
       Hit b;
-      ASSERT_EQ(plain.intersect(ray, a), scaled.intersect(Ray{as_point(s * as_vector(ray.origin)), ray.direction}, b));
+      ASSERT_EQ(plain.intersect(ray, a),
+                scaled.intersect(Ray{as_point(s * as_vector(ray.origin)), ray.direction}, b));
       EXPECT_EQ(a.item, b.item);
       if (a.item != Hit::none) {
         EXPECT_EQ(b.t, s * a.t);
@@ -282,10 +304,15 @@ TEST(SceneAccel, ShadowSegmentsEndBeforeTheirTarget) {
   Draw draw(9);
   for (int i = 0; i < 20000; ++i) {
     Hit floor;
-    ASSERT_TRUE(accel.intersect(Ray{{draw.between(-9, 9), 0.5, draw.between(-9, 9)}, {0, -1, 0}}, floor));
+    ASSERT_TRUE(
+        accel.intersect(Ray{{draw.between(-9, 9), 0.5, draw.between(-9, 9)}, {0, -1, 0}}, floor));
     Hit light;
-    ASSERT_TRUE(accel.intersect(Ray{floor.point + Vector3{0, 0.1, 0}, Point3{draw.between(-0.5, 0.5), 5, 0} - floor.point}, light));
-    EXPECT_FALSE(accel.occluded(spawn_segment(floor, light.point, light.error, light.geometric_normal))) << i;
+    ASSERT_TRUE(accel.intersect(
+        Ray{floor.point + Vector3{0, 0.1, 0}, Point3{draw.between(-0.5, 0.5), 5, 0} - floor.point},
+        light));
+    EXPECT_FALSE(
+        accel.occluded(spawn_segment(floor, light.point, light.error, light.geometric_normal)))
+        << i;
   }
 }
 

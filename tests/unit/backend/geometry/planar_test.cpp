@@ -63,8 +63,10 @@ TEST(Quad, InsideOutsideAndCoordinates) {
 
 TEST(Quad, SharedEdgesDoNotLeak) {
   // Four quads around a vertex; rays aimed at the shared edges.
-  const Quad quads[4] = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
-                         {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 0, 0}, {0, -1, 0}, {1, 0, 0}}};
+  const Quad quads[4] = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                         {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
+                         {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}},
+                         {{0, 0, 0}, {0, -1, 0}, {1, 0, 0}}};
   Draw draw(3);
   for (int i = 0; i < 100000; ++i) {
     const double along = draw.between(-1, 1);

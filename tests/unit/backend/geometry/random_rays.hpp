@@ -21,7 +21,9 @@ class Draw {
   double between(double low, double high) { return low + (high - low) * unit(); }
   double power_of_ten(double low, double high) { return pow(10.0, between(low, high)); }
   UnitVector3 direction() { return sample_uniform_sphere({unit(), unit()}); }
-  Point3 point(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
+  Point3 point(double size) {
+    return {between(-size, size), between(-size, size), between(-size, size)};
+  }
   // A rotation times a scale of 10^[-spread, spread] an axis, and a translation of the same size.
   Transform affine(double spread) {
     const Frame f = frame_about(direction());

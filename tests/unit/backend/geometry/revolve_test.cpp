@@ -90,10 +90,24 @@ const std::vector<std::pair<const char*, MakeRay>>& ray_kinds() {
       {"nearly level", [](Draw& d) { return aimed(d, 5e-5); }},
       {"very nearly level", [](Draw& d) { return aimed(d, 1e-15); }},
       {"level", [](Draw& d) { return aimed(d, 0); }},
-      {"along the axis", [](Draw& d) { return Ray{{d.between(-1.4, 1.4), -3, d.between(-0.4, 0.4)}, {0, 1, 0}}; }},
-      {"from inside", [](Draw& d) { return Ray{{d.between(-0.1, 0.1), d.between(0.5, 1.5), 0.05}, d.direction()}; }},
-      {"through the axis", [](Draw& d) { return Ray{{3, d.between(0, 2), 0}, {-1, d.between(-0.3, 0.3), 0}}; }},
-      {"long direction", [](Draw& d) { Ray r = aimed(d, -1); r.direction = 1e20 * r.direction; return r; }},
+      {"along the axis",
+       [](Draw& d) {
+         return Ray{{d.between(-1.4, 1.4), -3, d.between(-0.4, 0.4)}, {0, 1, 0}};
+       }},
+      {"from inside",
+       [](Draw& d) {
+         return Ray{{d.between(-0.1, 0.1), d.between(0.5, 1.5), 0.05}, d.direction()};
+       }},
+      {"through the axis",
+       [](Draw& d) {
+         return Ray{{3, d.between(0, 2), 0}, {-1, d.between(-0.3, 0.3), 0}};
+       }},
+      {"long direction",
+       [](Draw& d) {
+         Ray r = aimed(d, -1);
+         r.direction = 1e20 * r.direction;
+         return r;
+       }},
   };
   return all;
 }
@@ -121,11 +135,13 @@ TEST(Revolve, QuadricsMatchTheirClosedForms) {
           if (std::fabs(hits[k].t - want.t[k]) > 1e-10 * std::fabs(want.t[k])) ++inexact;
         ShapeHit first;
         ASSERT_EQ(intersect(revolve, ray, first), !want.t.empty());
-        if (!want.t.empty() && std::fabs(first.t - want.t[0]) > 1e-10 * std::fabs(want.t[0])) ++inexact;
+        if (!want.t.empty() && std::fabs(first.t - want.t[0]) > 1e-10 * std::fabs(want.t[0]))
+          ++inexact;
       }
       EXPECT_EQ(missed, 0) << q.name << ", " << kind << " of " << total;
       EXPECT_EQ(extra, 0) << q.name << ", " << kind << " of " << total;
-      EXPECT_LE(inexact, total / 500) << q.name << ", " << kind << " of " << total;  // nearly tangent ones
+      EXPECT_LE(inexact, total / 500)
+          << q.name << ", " << kind << " of " << total;  // nearly tangent ones
     }
   }
 }
@@ -157,7 +173,8 @@ TEST(Revolve, AxisRayHitsPolesWithTheirNormals) {
     ShapeHit hit;
     ASSERT_TRUE(intersect(drop, near, hit));
     const Surface s = surface(drop, near, hit);
-    EXPECT_TRUE(is_finite(s.point) && is_finite(as_vector(s.geometric_normal)) && is_finite(s.dp_du));
+    EXPECT_TRUE(is_finite(s.point) && is_finite(as_vector(s.geometric_normal)) &&
+                is_finite(s.dp_du));
   }
 }
 
@@ -212,7 +229,8 @@ TEST(Revolve, NegativeRadiiCountAsTheirAbsoluteValue) {
     ASSERT_EQ(intersect(negative, ray, b), got);
     if (!got) continue;
     EXPECT_EQ(a.t, b.t);
-    EXPECT_EQ(surface(positive, ray, a).geometric_normal, surface(negative, ray, b).geometric_normal);
+    EXPECT_EQ(surface(positive, ray, a).geometric_normal,
+              surface(negative, ray, b).geometric_normal);
   }
 }
 
@@ -260,7 +278,9 @@ TEST(Revolve, PowersOfTwoScaleExactly) {
       Points scaled = points;
       for (ProfilePoint& p : scaled) p = {s * p.radius, s * p.height};
       ShapeHit other;
-      ASSERT_EQ(intersect(Revolve(bezier_profile(scaled)), Ray{as_point(s * as_vector(ray.origin)), ray.direction}, other), got);
+      ASSERT_EQ(intersect(Revolve(bezier_profile(scaled)),
+                          Ray{as_point(s * as_vector(ray.origin)), ray.direction}, other),
+                got);
       if (got) {
         EXPECT_EQ(other.t, s * hit.t);
       }
@@ -275,8 +295,9 @@ TEST(Revolve, DegenerateProfilesEnd) {
   for (const ShapeHit& h : hits) EXPECT_TRUE(h.t >= 1 - 1e-9 && h.t <= 3 + 1e-9);
   ShapeHit hit;
   const Ray ray{{0.3, -1, 0.4}, {0, 1, 0}};
-  for (const Points& p : {Points{{1, 1}, {1, 1}, {1, 1}}, Points{{0, 0}, {0, 0}, {1, 0}, {1, 1}}, Points{{0, 1}, {1, 1}},
-                          Points{{0.5, 0}, {0.5, 2}}, Points{{0, 0}, {0, 1}}}) {
+  for (const Points& p :
+       {Points{{1, 1}, {1, 1}, {1, 1}}, Points{{0, 0}, {0, 0}, {1, 0}, {1, 1}},
+        Points{{0, 1}, {1, 1}}, Points{{0.5, 0}, {0.5, 2}}, Points{{0, 0}, {0, 1}}}) {
     const Revolve revolve(bezier_profile(p));
     if (intersect(revolve, ray, hit)) {
       EXPECT_TRUE(is_finite(as_vector(surface(revolve, ray, hit).geometric_normal)));

@@ -21,9 +21,11 @@ TEST(Box, FacesAreHitExactly) {
     if (!intersect(box, ray, hit)) continue;
     const Surface s = surface(box, ray, hit);
     const int axis = static_cast<int>(hit.part / 2);
-    EXPECT_EQ(component(s.point, axis), hit.part % 2 == 1 ? component(box.max, axis) : component(box.min, axis));
+    EXPECT_EQ(component(s.point, axis),
+              hit.part % 2 == 1 ? component(box.max, axis) : component(box.min, axis));
     EXPECT_LE(distance(s.point, ray.at(hit.t)), 1e-13);
-    EXPECT_EQ(dot(as_vector(s.geometric_normal), ray.direction) < 0, !bounds(box).contains(ray.origin));
+    EXPECT_EQ(dot(as_vector(s.geometric_normal), ray.direction) < 0,
+              !bounds(box).contains(ray.origin));
     EXPECT_GT(dot(cross(s.dp_du, s.dp_dv), as_vector(s.geometric_normal)), 0);
     EXPECT_TRUE(s.u >= 0 && s.u <= 1 && s.v >= 0 && s.v <= 1);
   }
@@ -77,10 +79,13 @@ TEST(Cylinder, RimsDoNotLeak) {
   Draw draw(3);
   for (int i = 0; i < 50000; ++i) {
     const double angle = draw.between(0, 2 * pi);
-    const Vector3 rim = 0.75 * (cos(angle) * cylinder.frame.x.vector() + sin(angle) * cylinder.frame.y.vector());
-    const Point3 center = i % 2 == 0 ? cylinder.base : cylinder.base + cylinder.height * cylinder.frame.z.vector();
+    const Vector3 rim =
+        0.75 * (cos(angle) * cylinder.frame.x.vector() + sin(angle) * cylinder.frame.y.vector());
+    const Point3 center =
+        i % 2 == 0 ? cylinder.base : cylinder.base + cylinder.height * cylinder.frame.z.vector();
     // From inside towards the rim: something must stop the ray.
-    const Point3 inside = cylinder.base + draw.between(0.2, 0.8) * cylinder.height * cylinder.frame.z.vector();
+    const Point3 inside =
+        cylinder.base + draw.between(0.2, 0.8) * cylinder.height * cylinder.frame.z.vector();
     ShapeHit hit;
     ASSERT_TRUE(intersect(cylinder, Ray{inside, (center + rim) - inside}, hit)) << i;
   }

@@ -53,11 +53,13 @@ void expect_far_rays_right(double distance, double radius, std::uint64_t seed) {
     const Oracle want = oracle_of(sphere, ray);
     ShapeHit hit;
     const bool got = intersect(sphere, ray, hit);
-    const double near_rim = static_cast<double>(std::fabs(want.h - static_cast<long double>(radius)));
+    const double near_rim =
+        static_cast<double>(std::fabs(want.h - static_cast<long double>(radius)));
     if (near_rim <= 4 * unit_roundoff * distance) continue;
     if (got != want.hit) ++wrong;
     if (!got || !want.hit) continue;
-    const double depth = std::sqrt((radius - static_cast<double>(want.h)) * (radius + static_cast<double>(want.h)));
+    const double depth =
+        std::sqrt((radius - static_cast<double>(want.h)) * (radius + static_cast<double>(want.h)));
     const double bound = 8 * unit_roundoff * distance / depth * static_cast<double>(want.t);
     if (std::fabs(hit.t - static_cast<double>(want.t)) > bound) ++bad_t;
   }
@@ -108,7 +110,8 @@ TEST(Sphere, PowersOfTwoScaleExactly) {
       const double s = std::ldexp(1.0, k);
       const Sphere scaled{as_point(s * as_vector(sphere.center)), s * sphere.radius};
       ShapeHit other;
-      EXPECT_EQ(intersect(scaled, Ray{as_point(s * as_vector(ray.origin)), ray.direction}, other), got);
+      EXPECT_EQ(intersect(scaled, Ray{as_point(s * as_vector(ray.origin)), ray.direction}, other),
+                got);
       if (got) {
         EXPECT_EQ(other.t, s * hit.t);
       }
@@ -126,7 +129,9 @@ TEST(Sphere, DyadicTranslationKeepsTheBits) {
     ShapeHit a;
     ShapeHit b;
     const bool got = intersect(sphere, ray, a);
-    EXPECT_EQ(intersect(Sphere{sphere.center + shift, 1.5}, Ray{ray.origin + shift, ray.direction}, b), got);
+    EXPECT_EQ(
+        intersect(Sphere{sphere.center + shift, 1.5}, Ray{ray.origin + shift, ray.direction}, b),
+        got);
     if (got) {
       EXPECT_EQ(a.t, b.t);
     }
@@ -169,11 +174,13 @@ TEST(Sphere, GroundSphereKeepsItsPoints) {
   const Sphere ground{{0, -1e9, 0}, 1e9};
   Draw draw(5);
   for (int i = 0; i < 10000; ++i) {
-    const Ray ray{{draw.between(-10, 10), 2, draw.between(-10, 10)}, {draw.between(-1, 1), -1, draw.between(-1, 1)}};
+    const Ray ray{{draw.between(-10, 10), 2, draw.between(-10, 10)},
+                  {draw.between(-1, 1), -1, draw.between(-1, 1)}};
     ShapeHit hit;
     ASSERT_TRUE(intersect(ground, ray, hit));
     const Surface s = surface(ground, ray, hit);
-    EXPECT_LE(std::fabs(distance(s.point, ground.center) - 1e9), 2 * (std::nextafter(1e9, 2e9) - 1e9));
+    EXPECT_LE(std::fabs(distance(s.point, ground.center) - 1e9),
+              2 * (std::nextafter(1e9, 2e9) - 1e9));
   }
 }
 
@@ -193,7 +200,8 @@ TEST(Sphere, SurfaceCoordinates) {
   EXPECT_EQ(at({0, -1, 0}).v, 0);
   const Surface s = at({1, 1, 1});
   EXPECT_GT(dot(cross(s.dp_du, s.dp_dv), as_vector(s.geometric_normal)), 0);
-  for (const Vector3& pole : {Vector3{0, 1, 0}, Vector3{0, -1, 0}}) EXPECT_TRUE(is_finite(at(pole).dp_dv));
+  for (const Vector3& pole : {Vector3{0, 1, 0}, Vector3{0, -1, 0}})
+    EXPECT_TRUE(is_finite(at(pole).dp_dv));
 }
 
 }  // namespace

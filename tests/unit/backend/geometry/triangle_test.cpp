@@ -19,8 +19,8 @@ bool brute_force(const TriangleMesh& mesh, const Ray& ray) {
   const RayShear shear(ray);
   ShapeHit hit;
   for (const Face& f : mesh.faces)
-    if (intersect_triangle(shear, mesh.positions[f[0]], mesh.positions[f[1]], mesh.positions[f[2]], ray.t_min,
-                           ray.t_max, hit))
+    if (intersect_triangle(shear, mesh.positions[f[0]], mesh.positions[f[1]], mesh.positions[f[2]],
+                           ray.t_min, ray.t_max, hit))
       return true;
   return false;
 }
@@ -30,10 +30,12 @@ TEST(Triangle, ClosedMeshesDoNotLeak) {
     const TriangleMesh mesh = testing_support::displaced_sphere(24, offset);
     Draw draw(1);
     for (int i = 0; i < 3000; ++i) {
-      const Face& f = mesh.faces[static_cast<std::size_t>(draw.unit() * static_cast<double>(mesh.faces.size()))];
+      const Face& f = mesh.faces[static_cast<std::size_t>(draw.unit() *
+                                                          static_cast<double>(mesh.faces.size()))];
       const double b = i % 3 == 0 ? draw.unit() : i % 3 == 1 ? 0.0 : 0.5 * draw.unit();
       const double c = i % 3 == 2 ? draw.unit() * 0.5 : 0.0;  // along an edge, at a vertex, inside
-      const Point3 target = mesh.positions[f[0]] + b * (mesh.positions[f[1]] - mesh.positions[f[0]]) +
+      const Point3 target = mesh.positions[f[0]] +
+                            b * (mesh.positions[f[1]] - mesh.positions[f[0]]) +
                             c * (mesh.positions[f[2]] - mesh.positions[f[0]]);
       const Point3 origin = Point3{offset, offset, offset} + as_vector(draw.point(0.3));
       ASSERT_TRUE(brute_force(mesh, Ray{origin, target - origin})) << i << " " << offset;
@@ -50,7 +52,8 @@ TEST(Triangle, TinyTrianglesAreHit) {
       const double u = draw.between(0.01, 0.98);
       const double v = draw.between(0.01, 0.99 - u);
       const Point3 target{u * leg, v * leg, 0};
-      const Point3 origin = target + leg * draw.between(0.5, 2) * Vector3{draw.between(-1, 1), draw.between(-1, 1), 1};
+      const Point3 origin = target + leg * draw.between(0.5, 2) *
+                                         Vector3{draw.between(-1, 1), draw.between(-1, 1), 1};
       ShapeHit hit;
       ASSERT_TRUE(intersect(t, Ray{origin, target - origin}, hit)) << k;
       EXPECT_NEAR(hit.a + hit.b, u + v, 1e-12);
@@ -76,8 +79,10 @@ TEST(Triangle, DegenerateOnesMiss) {
   EXPECT_FALSE(intersect(Triangle{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}, ray, hit));
   EXPECT_FALSE(intersect(Triangle{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, ray, hit));
   EXPECT_FALSE(intersect(Triangle{{0, 0, 0}, {1, 0, 0}, {0, std::nan(""), 0}}, ray, hit));
-  EXPECT_FALSE(intersect(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, Ray{{-1, 0.2, 0}, {1, 0, 0}}, hit));
-  EXPECT_TRUE(intersect(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, Ray{{0, 0, -1}, {0, 0, 1}}, hit));
+  EXPECT_FALSE(
+      intersect(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, Ray{{-1, 0.2, 0}, {1, 0, 0}}, hit));
+  EXPECT_TRUE(
+      intersect(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, Ray{{0, 0, -1}, {0, 0, 1}}, hit));
 }
 
 TEST(Mesh, AttributesAndTheirAbsence) {
@@ -97,7 +102,8 @@ TEST(Mesh, AttributesAndTheirAbsence) {
   // The second face names no normal for one corner: flat.
   EXPECT_EQ(surface(mesh, {1, 1, 0.25, 0.5}).shading_normal, (Normal3{0, 0, 1}));
   mesh.normal_faces = {{1, 2, 1}, {0, 0, 0}};
-  EXPECT_EQ(surface(mesh, {1, 0, 0.5, 0}).shading_normal, (Normal3{0, 0, 1}));  // opposite ones cancel
+  EXPECT_EQ(surface(mesh, {1, 0, 0.5, 0}).shading_normal,
+            (Normal3{0, 0, 1}));  // opposite ones cancel
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ double error_in_ulp(double got, long double want) {
   if (std::isnan(rounded) || std::isinf(rounded) || rounded == 0)
     return got == rounded || (std::isnan(got) && std::isnan(rounded)) ? 0 : infinity;
   const double ulp = std::nextafter(std::fabs(rounded), infinity) - std::fabs(rounded);
-  return static_cast<double>(std::fabs(static_cast<long double>(got) - want) / static_cast<long double>(ulp));
+  return static_cast<double>(std::fabs(static_cast<long double>(got) - want) /
+                             static_cast<long double>(ulp));
 }
 
 template <class Ours, class Oracle, class Draw>
@@ -35,13 +36,15 @@ double worst_error(Ours ours, Oracle oracle, Draw draw, std::uint64_t count = 20
   return worst;
 }
 
-double spread(double u, double v) { return (u < 0.5 ? -1 : 1) * std::ldexp(1 + v, static_cast<int>(60 * u) - 45); }
+double spread(double u, double v) {
+  return (u < 0.5 ? -1 : 1) * std::ldexp(1 + v, static_cast<int>(60 * u) - 45);
+}
 
-#define EXPECT_WITHIN(bound, ...)                     \
-  do {                                                \
-    const double worst_ = worst_error(__VA_ARGS__);   \
-    EXPECT_LE(worst_, bound);                         \
-    RecordProperty("ulp", std::to_string(worst_));    \
+#define EXPECT_WITHIN(bound, ...)                   \
+  do {                                              \
+    const double worst_ = worst_error(__VA_ARGS__); \
+    EXPECT_LE(worst_, bound);                       \
+    RecordProperty("ulp", std::to_string(worst_));  \
   } while (false)
 
 class Elementary : public testing::Test {
@@ -63,29 +66,41 @@ TEST_F(Elementary, SinAndCosOverTheDomain) {
   EXPECT_WITHIN(0.8, s, sl, large);
   EXPECT_WITHIN(0.8, c, cl, large);
   EXPECT_WITHIN(0.8, s, sl, spread);
-  EXPECT_WITHIN(0.8, [](double x) { return cos(x); }, cl, spread);
+  EXPECT_WITHIN(
+      0.8, [](double x) { return cos(x); }, cl, spread);
 }
 
 TEST_F(Elementary, SinNearMultiplesOfHalfPi) {
-  const auto near = [](double u, double v) { return std::floor(1e6 * u) * (pi / 2) * (1 + (v - 0.5) * DBL_EPSILON); };
-  EXPECT_WITHIN(0.8, [](double x) { return sin(x); }, [](long double x) { return sinl(x); }, near);
-  EXPECT_WITHIN(0.8, [](double x) { return cos(x); }, [](long double x) { return cosl(x); }, near);
+  const auto near = [](double u, double v) {
+    return std::floor(1e6 * u) * (pi / 2) * (1 + (v - 0.5) * DBL_EPSILON);
+  };
+  EXPECT_WITHIN(
+      0.8, [](double x) { return sin(x); }, [](long double x) { return sinl(x); }, near);
+  EXPECT_WITHIN(
+      0.8, [](double x) { return cos(x); }, [](long double x) { return cosl(x); }, near);
 }
 
 TEST_F(Elementary, Tan) {
-  EXPECT_WITHIN(1.0, [](double x) { return tan(x); }, [](long double x) { return tanl(x); },
-                [](double u, double) { return 10 * (u - 0.5); });
+  EXPECT_WITHIN(
+      1.0, [](double x) { return tan(x); }, [](long double x) { return tanl(x); },
+      [](double u, double) { return 10 * (u - 0.5); });
 }
 
 TEST_F(Elementary, AsinAndAcos) {
   const auto whole = [](double u, double) { return 2 * u - 1; };
-  const auto near_one = [](double u, double v) { return (u < 0.5 ? -1 : 1) * (1 - std::ldexp(v, -static_cast<int>(50 * u))); };
+  const auto near_one = [](double u, double v) {
+    return (u < 0.5 ? -1 : 1) * (1 - std::ldexp(v, -static_cast<int>(50 * u)));
+  };
   const auto as = [](double x) { return asin(x); };
   const auto ac = [](double x) { return acos(x); };
-  EXPECT_WITHIN(0.8, as, [](long double x) { return asinl(x); }, whole);
-  EXPECT_WITHIN(0.8, ac, [](long double x) { return acosl(x); }, whole);
-  EXPECT_WITHIN(0.8, as, [](long double x) { return asinl(x); }, near_one);
-  EXPECT_WITHIN(0.8, ac, [](long double x) { return acosl(x); }, near_one);
+  EXPECT_WITHIN(
+      0.8, as, [](long double x) { return asinl(x); }, whole);
+  EXPECT_WITHIN(
+      0.8, ac, [](long double x) { return acosl(x); }, whole);
+  EXPECT_WITHIN(
+      0.8, as, [](long double x) { return asinl(x); }, near_one);
+  EXPECT_WITHIN(
+      0.8, ac, [](long double x) { return acosl(x); }, near_one);
 }
 
 TEST_F(Elementary, Atan2) {
@@ -108,14 +123,17 @@ TEST_F(Elementary, Exp) {
 TEST_F(Elementary, Log) {
   const auto l = [](double x) { return log(x); };
   const auto ll = [](long double x) { return logl(x); };
-  EXPECT_WITHIN(0.55, l, ll, [](double u, double v) { return std::ldexp(1 + v, static_cast<int>(2000 * u) - 1000); });
+  EXPECT_WITHIN(0.55, l, ll, [](double u, double v) {
+    return std::ldexp(1 + v, static_cast<int>(2000 * u) - 1000);
+  });
   EXPECT_WITHIN(0.55, l, ll, [](double u, double) { return 0.9 + 0.2 * u; });
 }
 
 TEST_F(Elementary, Pow) {
   double worst = 0;
   for (std::uint64_t i = 0; i < 300000; ++i) {
-    const double x = std::ldexp(1 + random_unit(2, i, 0, 0), static_cast<int>(20 * random_unit(2, i, 0, 1)) - 10);
+    const double x = std::ldexp(1 + random_unit(2, i, 0, 0),
+                                static_cast<int>(20 * random_unit(2, i, 0, 1)) - 10);
     const double y = 120 * (random_unit(2, i, 0, 2) - 0.5);
     const long double want = powl(x, y);
     // powl itself is good to about 2^-60 relative here.
@@ -164,7 +182,8 @@ TEST(ElementaryEdges, OutsideTheDomain) {
 }
 
 TEST(ElementaryEdges, PowAsInTheStandard) {
-  for (const double x : {0.0, -0.0, 1.0, -3.0, infinity, -infinity, not_a_number, 1e-310}) EXPECT_EQ(pow(x, 0.0), 1.0);
+  for (const double x : {0.0, -0.0, 1.0, -3.0, infinity, -infinity, not_a_number, 1e-310})
+    EXPECT_EQ(pow(x, 0.0), 1.0);
   for (const double y : {2.0, -3.0, 0.5, infinity, not_a_number}) EXPECT_EQ(pow(1.0, y), 1.0);
   for (const double x : {0.0, -0.0, 0.25, 2.0, -2.0, infinity, -infinity})
     for (const double y : {-infinity, -3.0, -2.0, -0.5, 0.5, 1.0, 2.0, 3.0, 1e300, infinity}) {

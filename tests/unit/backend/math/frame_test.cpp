@@ -24,7 +24,8 @@ void expect_orthonormal(const Frame& f) {
 
 TEST(Frame, AllDirections) {
   for (std::uint64_t i = 0; i < 100000; ++i)
-    expect_orthonormal(frame_about(sample_uniform_sphere({random_unit(1, i, 0, 0), random_unit(1, i, 0, 1)})));
+    expect_orthonormal(
+        frame_about(sample_uniform_sphere({random_unit(1, i, 0, 0), random_unit(1, i, 0, 1)})));
 }
 
 TEST(Frame, PolesAndTheirNeighbours) {

@@ -13,7 +13,9 @@ namespace {
 
 constexpr double below_one = 1 - 0x1p-53;
 
-Sample2 draw(std::uint64_t i) { return {random_unit(21, i, 0, 0), random_unit(21, i, 0, 1)}; }
+Sample2 draw(std::uint64_t i) {
+  return {random_unit(21, i, 0, 0), random_unit(21, i, 0, 1)};
+}
 
 TEST(Sampling, CornersStayInTheDomain) {
   for (const double u : {0.0, 0x1p-53, 0.5, below_one})
@@ -21,8 +23,9 @@ TEST(Sampling, CornersStayInTheDomain) {
       const Sample2 s{u, v};
       const Sample2 d = sample_concentric_disk(s);
       EXPECT_LE(d.u * d.u + d.v * d.v, 1 + 4 * unit_roundoff);
-      for (const UnitVector3& w : {sample_cosine_hemisphere(s), sample_uniform_hemisphere(s), sample_uniform_sphere(s),
-                                   sample_uniform_cone(s, 1.0), sample_uniform_cone(s, 1e-20)})
+      for (const UnitVector3& w :
+           {sample_cosine_hemisphere(s), sample_uniform_hemisphere(s), sample_uniform_sphere(s),
+            sample_uniform_cone(s, 1.0), sample_uniform_cone(s, 1e-20)})
         EXPECT_NEAR(length(w), 1, 8 * unit_roundoff);
       EXPECT_GE(sample_cosine_hemisphere(s).z(), 0);
       const Sample2 t = sample_uniform_triangle(s);

@@ -13,7 +13,9 @@
 namespace scenec::backend {
 namespace {
 
-double draw(std::uint64_t i, std::uint32_t d) { return 2 * random_unit(3, i, 0, d) - 1; }
+double draw(std::uint64_t i, std::uint32_t d) {
+  return 2 * random_unit(3, i, 0, d) - 1;
+}
 
 // A random matrix with rows scaled by 10^[-4, 4].
 Transform random_transform(std::uint64_t i) {
@@ -41,7 +43,8 @@ TEST(Transform, RoundTripIsWithinItsBound) {
 }
 
 TEST(Transform, InverseOfPowersOfTwoIsExact) {
-  const Transform t = Transform::from_rows({{{0, 2, 0, 8}, {-0.5, 0, 0, 1}, {0, 0, 1024, -4}}}).value();
+  const Transform t =
+      Transform::from_rows({{{0, 2, 0, 8}, {-0.5, 0, 0, 1}, {0, 0, 1024, -4}}}).value();
   const Point3 p{1.25, -3, 7};
   EXPECT_EQ(t.apply_inverse(t.apply(p)), p);
   EXPECT_EQ(t.determinant(), 1024);
@@ -52,9 +55,12 @@ TEST(Transform, InverseOfPowersOfTwoIsExact) {
 TEST(Transform, SingularAndNonFiniteAreRefused) {
   EXPECT_FALSE(Transform::from_rows({{{1, 2, 3, 0}, {2, 4, 6, 0}, {0, 0, 1, 0}}}).has_value());
   EXPECT_FALSE(Transform::from_rows({{{1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}}}).has_value());
-  EXPECT_FALSE(Transform::from_rows({{{std::nan(""), 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}).has_value());
-  EXPECT_TRUE(Transform::from_rows({{{1e-200, 0, 0, 0}, {0, 1e-200, 0, 0}, {0, 0, 1e-200, 0}}}).has_value());
-  EXPECT_FALSE(Transform::from_matrix({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1}).has_value());
+  EXPECT_FALSE(
+      Transform::from_rows({{{std::nan(""), 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}).has_value());
+  EXPECT_TRUE(Transform::from_rows({{{1e-200, 0, 0, 0}, {0, 1e-200, 0, 0}, {0, 0, 1e-200, 0}}})
+                  .has_value());
+  EXPECT_FALSE(
+      Transform::from_matrix({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1}).has_value());
 }
 
 TEST(Transform, NormalsStayOrthogonal) {
@@ -70,7 +76,9 @@ TEST(Transform, NormalsStayOrthogonal) {
 
 TEST(Transform, NestedRotationsComeBack) {
   const SinCos sc = sin_cos(2 * pi / 32);
-  const Transform step = Transform::from_rows({{{sc.cos, 0, sc.sin, 0}, {0, 1, 0, 0}, {-sc.sin, 0, sc.cos, 0}}}).value();
+  const Transform step =
+      Transform::from_rows({{{sc.cos, 0, sc.sin, 0}, {0, 1, 0, 0}, {-sc.sin, 0, sc.cos, 0}}})
+          .value();
   Transform all;
   for (int i = 0; i < 32; ++i) all = step * all;
   const Point3 p = all.apply(Point3{1, 2, 3});
