@@ -34,23 +34,29 @@ struct close_bracket : lex::closer_text<']'> {};
 
 // What C's "%f" reads, and a word only as a whole: `200.0`, `.16`, `1.`, `1e-05`, `+1`, `-0`.
 struct digits : peg::plus<peg::digit> {};
-struct mantissa : peg::sor<peg::seq<digits, peg::opt<peg::one<'.'>, peg::star<peg::digit>>>, peg::seq<peg::one<'.'>, digits>> {};
+struct mantissa : peg::sor<peg::seq<digits, peg::opt<peg::one<'.'>, peg::star<peg::digit>>>,
+                           peg::seq<peg::one<'.'>, digits>> {};
 struct exponent : peg::seq<peg::one<'e', 'E'>, peg::opt<peg::one<'+', '-'>>, digits> {};
-struct number_text : peg::seq<peg::opt<peg::one<'+', '-'>>, mantissa, peg::opt<exponent>, word_end>, makes_token<Kind::number> {};
+struct number_text : peg::seq<peg::opt<peg::one<'+', '-'>>, mantissa, peg::opt<exponent>, word_end>,
+                     makes_token<Kind::number> {};
 struct number : peg::seq<number_text>, makes_node<Kind::course_number> {};
 
-struct word_text : peg::plus<peg::seq<peg::not_at<delimiter>, peg::any>>, makes_token<Kind::name> {};
+struct word_text : peg::plus<peg::seq<peg::not_at<delimiter>, peg::any>>,
+                   makes_token<Kind::name> {};
 struct word : peg::seq<word_text>, makes_node<Kind::course_word> {};
 
 struct element;
 struct stray_closer : peg::one<'}', ']'> {};
 struct stray_bracket : peg::one<']'> {};  // inside a block
-struct block : peg::seq<open_brace, space, peg::star<peg::sor<element, stray_bracket>, space>, expect<close_brace>>,
+struct block : peg::seq<open_brace, space, peg::star<peg::sor<element, stray_bracket>, space>,
+                        expect<close_brace>>,
                makes_node<Kind::course_block> {};
-struct bracket : peg::seq<open_bracket, space, peg::star<element, space>, expect<close_bracket>>, makes_node<Kind::course_bracket> {};
+struct bracket : peg::seq<open_bracket, space, peg::star<element, space>, expect<close_bracket>>,
+                 makes_node<Kind::course_bracket> {};
 struct element : peg::sor<number, word, block, bracket> {};
 struct outermost : peg::seq<element> {};
-struct file : peg::seq<space, peg::star<peg::sor<outermost, stray_closer>, space>, peg::eof>, makes_node<Kind::course_file> {};
+struct file : peg::seq<space, peg::star<peg::sor<outermost, stray_closer>, space>, peg::eof>,
+              makes_node<Kind::course_file> {};
 
 }  // namespace scenec::grammar::course
 

@@ -10,13 +10,15 @@ namespace scenec::grammar {
 
 inline void report_course_stray(TreeBuilder& builder, std::uint32_t begin, std::uint32_t end) {
   const std::string mark(builder.text().substr(begin, end - begin));
-  builder.report(begin, Diagnostic(DiagnosticKind::closer_stray, builder.span(begin, end), "`" + mark + "` closes nothing"));
+  builder.report(begin, Diagnostic(DiagnosticKind::closer_stray, builder.span(begin, end),
+                                   "`" + mark + "` closes nothing"));
   builder.error_node(begin, end);
 }
 
 // Zero width: the block or bracket ends where its parent closes, or with the file. A `}` that no
 // parent waits for was meant for the bracket. Returns where reading goes on.
-[[nodiscard]] inline std::uint32_t repair_course_closer(TreeBuilder& builder, std::uint32_t offset) {
+[[nodiscard]] inline std::uint32_t repair_course_closer(TreeBuilder& builder,
+                                                        std::uint32_t offset) {
   const std::string_view text = builder.text();
   const std::uint32_t opener = builder.openers().back();
   const bool at_end = offset >= text.size();
@@ -25,15 +27,18 @@ inline void report_course_stray(TreeBuilder& builder, std::uint32_t begin, std::
   const Span where = builder.span(offset, at_end ? offset : offset + 1);
   builder.close();
   if (!at_end && builder.openers().empty()) {
-    builder.report(offset, Diagnostic(DiagnosticKind::closer_mismatched, where, "expected " + closer + ", found " + found)
+    builder.report(offset, Diagnostic(DiagnosticKind::closer_mismatched, where,
+                                      "expected " + closer + ", found " + found)
                                .label(builder.span(opener, opener + 1), "opened here")
                                .fix(where, "]"));
     builder.error_node(offset, offset + 1);
     return offset + 1;
   }
-  builder.report(offset, Diagnostic(DiagnosticKind::bracket_unclosed, builder.span(opener, opener + 1),
-                                    std::string("`") + text[opener] + "` is never closed: expected " + closer + " before " + found)
-                             .note(at_end ? "the file ends here" : "the block round it ends here", where));
+  builder.report(
+      offset, Diagnostic(DiagnosticKind::bracket_unclosed, builder.span(opener, opener + 1),
+                         std::string("`") + text[opener] + "` is never closed: expected " + closer +
+                             " before " + found)
+                  .note(at_end ? "the file ends here" : "the block round it ends here", where));
   return offset;
 }
 

@@ -14,17 +14,23 @@ namespace peg = tao::pegtl;
 
 // A rule derives from one of these to say what becomes of its match.
 template <SyntaxKind kind>
-struct makes_token { static constexpr SyntaxKind token_kind = kind; };
+struct makes_token {
+  static constexpr SyntaxKind token_kind = kind;
+};
 template <SyntaxKind kind>
-struct makes_node { static constexpr SyntaxKind node_kind = kind; };
+struct makes_node {
+  static constexpr SyntaxKind node_kind = kind;
+};
 // A node that takes the node before it as its first child (`a` in `a + b`, `a.b`, `a[i]`).
 template <SyntaxKind kind>
-struct wraps_node { static constexpr SyntaxKind wrapping_kind = kind; };
-struct opens {};              // a token that opens a level of nesting
-struct closes {};             // a token that closes one
-struct deepens {};            // on success one level deeper until the operand or item ends
-struct restores_depth {};     // ends the levels that were opened inside it by `deepens`
-struct recovers {};           // an item: mistakes inside it end here
+struct wraps_node {
+  static constexpr SyntaxKind wrapping_kind = kind;
+};
+struct opens {};           // a token that opens a level of nesting
+struct closes {};          // a token that closes one
+struct deepens {};         // on success one level deeper until the operand or item ends
+struct restores_depth {};  // ends the levels that were opened inside it by `deepens`
+struct recovers {};        // an item: mistakes inside it end here
 
 // What stands for a required part that is not there: reports and repairs, or gives the item up.
 template <class Rule>
@@ -45,7 +51,8 @@ struct trivia {
     for (;; ++place) {
       const char c = scan::at(text, place);
       if (scan::is(c, scan::blank)) continue;
-      const bool comment = c == '/' && (scan::at(text, place + 1) == '/' || scan::at(text, place + 1) == '*');
+      const bool comment =
+          c == '/' && (scan::at(text, place + 1) == '/' || scan::at(text, place + 1) == '*');
       if (!comment) break;
       place = builder.comment(place) - 1;
     }
@@ -101,18 +108,22 @@ struct any_name : peg::seq<any_name_text, trivia> {};
 struct digits : peg::plus<peg::digit> {};
 struct fraction : peg::seq<peg::one<'.'>, digits> {};
 struct exponent : peg::seq<peg::one<'e'>, peg::opt<peg::one<'+', '-'>>, digits> {};
-struct percent : peg::seq<peg::one<'%'>, peg::not_at<peg::sor<peg::identifier_other, peg::one<'('>>>> {};
+struct percent
+    : peg::seq<peg::one<'%'>, peg::not_at<peg::sor<peg::identifier_other, peg::one<'('>>>> {};
 struct suffix : peg::sor<percent, peg::star<peg::identifier_other>> {};
-struct number_text : peg::seq<digits, peg::opt<fraction>, peg::opt<exponent>, suffix>, makes_token<SyntaxKind::number> {};
+struct number_text : peg::seq<digits, peg::opt<fraction>, peg::opt<exponent>, suffix>,
+                     makes_token<SyntaxKind::number> {};
 
-struct color_text : peg::seq<peg::one<'#'>, peg::rep<3, peg::xdigit>, peg::opt<peg::rep<3, peg::xdigit>>,
-                             peg::not_at<peg::identifier_other>>,
-                    makes_token<SyntaxKind::color> {};
+struct color_text
+    : peg::seq<peg::one<'#'>, peg::rep<3, peg::xdigit>, peg::opt<peg::rep<3, peg::xdigit>>,
+               peg::not_at<peg::identifier_other>>,
+      makes_token<SyntaxKind::color> {};
 struct enum_text : peg::seq<peg::one<'.'>, peg::identifier>, makes_token<SyntaxKind::enum_value> {};
 
 // Up to the closing quote; up to the end of the line when there is none (reported by its action).
 struct escape : peg::seq<peg::one<'\\'>, peg::not_one<'\r', '\n'>> {};
-struct string_part : peg::sor<peg::plus<peg::not_one<'"', '\\', '\r', '\n'>>, escape, peg::one<'\\'>> {};
+struct string_part
+    : peg::sor<peg::plus<peg::not_one<'"', '\\', '\r', '\n'>>, escape, peg::one<'\\'>> {};
 struct string_text : peg::seq<peg::one<'"'>, peg::star<string_part>, peg::opt<peg::one<'"'>>>,
                      makes_token<SyntaxKind::string> {};
 struct string : peg::seq<string_text, trivia> {};

@@ -5,8 +5,10 @@
 
 namespace scenec::grammar {
 
-SyntaxTree parse_course(FileId file, std::string_view text, DiagnosticSink& sink, const ParseLimits& limits) {
-  return run_grammar<course::file>({Dialect::course, SyntaxKind::course_file, file, text}, sink, limits);
+SyntaxTree parse_course(FileId file, std::string_view text, DiagnosticSink& sink,
+                        const ParseLimits& limits) {
+  return run_grammar<course::file>({Dialect::course, SyntaxKind::course_file, file, text}, sink,
+                                   limits);
 }
 
 }  // namespace scenec::grammar

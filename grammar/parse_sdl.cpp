@@ -6,7 +6,8 @@
 
 namespace scenec::grammar {
 
-SyntaxTree parse_sdl(FileId file, std::string_view text, DiagnosticSink& sink, const ParseLimits& limits) {
+SyntaxTree parse_sdl(FileId file, std::string_view text, DiagnosticSink& sink,
+                     const ParseLimits& limits) {
   return run_grammar<sdl::file>({Dialect::sdl, SyntaxKind::file, file, text}, sink, limits);
 }
 

@@ -10,18 +10,18 @@
 namespace scenec::grammar {
 
 enum class Repair : std::uint8_t {
-  give_up,     // report and leave the item
-  semicolon,   // zero width when an item, `}` or the end follows
-  closer,      // zero width when the statement ends; a wrong closer is taken for it
-  list_closer, // the same; a `,` could also come
-  value,       // an empty error node when nothing stands where a value belongs
-  name,        // a reserved word is taken for it
-  type,        // an empty error node
-  colon,       // `=` is taken for it
-  assign,      // `:` is taken for it
-  block,       // leaves a `}` behind
-  item,        // nothing here begins an item
-  edition,     // a file without `sdl 1;`
+  give_up,      // report and leave the item
+  semicolon,    // zero width when an item, `}` or the end follows
+  closer,       // zero width when the statement ends; a wrong closer is taken for it
+  list_closer,  // the same; a `,` could also come
+  value,        // an empty error node when nothing stands where a value belongs
+  name,         // a reserved word is taken for it
+  type,         // an empty error node
+  colon,        // `=` is taken for it
+  assign,       // `:` is taken for it
+  block,        // leaves a `}` behind
+  item,         // nothing here begins an item
+  edition,      // a file without `sdl 1;`
 };
 
 struct Expectation {
@@ -33,14 +33,15 @@ template <class Rule>
 struct expectation;
 
 // Returns where reading goes on; throws BrokenStatement when the item cannot be kept.
-[[nodiscard]] std::uint32_t repair_missing(TreeBuilder& builder, const Expectation& expected, std::uint32_t offset);
+[[nodiscard]] std::uint32_t repair_missing(TreeBuilder& builder, const Expectation& expected,
+                                           std::uint32_t offset);
 
 // After a BrokenStatement: turns what was pushed since `mark` and what is skipped into one error
 // node. `open_brackets` counts the `(` and `[` of the item that were open where it broke.
 // Skipping takes balanced braces whole and stops behind `;`, before `}` and before a line that
 // begins with an item. Returns where the next item begins.
-[[nodiscard]] std::uint32_t resume_after(TreeBuilder& builder, std::uint32_t broken_at, std::uint32_t mark,
-                                         std::uint32_t open_brackets);
+[[nodiscard]] std::uint32_t resume_after(TreeBuilder& builder, std::uint32_t broken_at,
+                                         std::uint32_t mark, std::uint32_t open_brackets);
 
 // Reports of literals that are taken as they are.
 void check_string(TreeBuilder& builder, std::uint32_t begin, std::uint32_t end);

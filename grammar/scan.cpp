@@ -9,8 +9,8 @@ namespace scenec::grammar::scan {
 namespace {
 
 constexpr std::array<std::string_view, 17> item_keywords = {
-    "assert", "camera", "fn",    "for",   "group",    "if",    "include", "instance", "let",
-    "light",  "macro",  "material", "param", "proto", "render", "sdl",    "else"};
+    "assert", "camera", "fn",       "for",   "group", "if",     "include", "instance", "let",
+    "light",  "macro",  "material", "param", "proto", "render", "sdl",     "else"};
 constexpr std::array<std::string_view, 4> other_reserved = {"as", "in", "true", "false"};
 
 template <std::size_t N>
@@ -22,7 +22,8 @@ std::size_t string_end(std::string_view text, std::size_t offset) {
   for (std::size_t at_byte = offset + 1; at_byte < text.size(); ++at_byte) {
     if (is_line_end(text[at_byte])) return at_byte;
     if (text[at_byte] == '"') return at_byte + 1;
-    if (text[at_byte] == '\\' && at_byte + 1 < text.size() && !is_line_end(text[at_byte + 1])) ++at_byte;
+    if (text[at_byte] == '\\' && at_byte + 1 < text.size() && !is_line_end(text[at_byte + 1]))
+      ++at_byte;
   }
   return text.size();
 }
@@ -42,7 +43,9 @@ std::size_t numeral_end(std::string_view text, std::size_t offset) {
 
 std::size_t code_point_end(std::string_view text, std::size_t offset) {
   const bool leads = static_cast<unsigned char>(text[offset++]) >= 0xC0;
-  while (leads && offset < text.size() && (static_cast<unsigned char>(text[offset]) & 0xC0u) == 0x80u) ++offset;
+  while (leads && offset < text.size() &&
+         (static_cast<unsigned char>(text[offset]) & 0xC0u) == 0x80u)
+    ++offset;
   return offset;
 }
 
@@ -55,8 +58,18 @@ bool is_item_keyword(std::string_view word) {
 bool is_reserved(std::string_view word) {
   if (word.size() < 2 || word.size() > 8) return false;
   switch (word.front()) {  // most names are turned away here
-    case 'a': case 'c': case 'e': case 'f': case 'g': case 'i': case 'l': case 'm': case 'p':
-    case 'r': case 's': case 't':
+    case 'a':
+    case 'c':
+    case 'e':
+    case 'f':
+    case 'g':
+    case 'i':
+    case 'l':
+    case 'm':
+    case 'p':
+    case 'r':
+    case 's':
+    case 't':
       return contains(item_keywords, word) || contains(other_reserved, word);
     default:
       return false;
@@ -76,7 +89,8 @@ std::size_t skip_trivia(std::string_view text, std::size_t offset) {
   while (offset < text.size()) {
     if (is(text[offset], blank)) {
       ++offset;
-    } else if (text[offset] == '/' && (at(text, offset + 1) == '/' || at(text, offset + 1) == '*')) {
+    } else if (text[offset] == '/' &&
+               (at(text, offset + 1) == '/' || at(text, offset + 1) == '*')) {
       offset = std::min(comment_end(text, offset), text.size());
     } else {
       break;

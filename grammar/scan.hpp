@@ -27,7 +27,9 @@ inline constexpr std::array<std::uint8_t, 256> char_classes = [] {
 [[nodiscard]] constexpr bool is(char c, unsigned classes) {
   return (char_classes[static_cast<unsigned char>(c)] & classes) != 0;
 }
-[[nodiscard]] constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+[[nodiscard]] constexpr bool is_line_end(char c) {
+  return c == '\n' || c == '\r';
+}
 // The character at an offset; NUL behind the end.
 [[nodiscard]] constexpr char at(std::string_view text, std::size_t offset) {
   return offset < text.size() ? text[offset] : '\0';

@@ -15,7 +15,8 @@ struct taken_with_report {
     const std::uint32_t begin = builder.offset_of(in.current());
     if (!peg::match<Rule, A, M, Action, Control>(in, builder, states...)) return false;
     const std::size_t end = scan::token_end(builder.text(), begin);
-    if constexpr (A == peg::apply_mode::action) taken(builder, begin, static_cast<std::uint32_t>(end));
+    if constexpr (A == peg::apply_mode::action)
+      taken(builder, begin, static_cast<std::uint32_t>(end));
     return true;
   }
 };

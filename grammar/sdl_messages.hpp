@@ -7,9 +7,9 @@
 
 namespace scenec::grammar {
 
-#define SCENEC_EXPECTS(rule, what, repair)                  \
-  template <>                                               \
-  struct expectation<sdl::rule> {                           \
+#define SCENEC_EXPECTS(rule, what, repair)                    \
+  template <>                                                 \
+  struct expectation<sdl::rule> {                             \
     static constexpr Expectation value{what, Repair::repair}; \
   }
 

@@ -60,7 +60,8 @@ std::string SyntaxTree::documentation_of(NodeRef item) const {
   while (first != trivia_.begin()) {
     const Trivia& one = *(first - 1);
     const bool adjacent = is_one_line_end(text_.substr(one.end, below - one.end));
-    if (one.kind != TriviaKind::doc_comment || !adjacent || !is_alone_on_line(text_, one.begin)) break;
+    if (one.kind != TriviaKind::doc_comment || !adjacent || !is_alone_on_line(text_, one.begin))
+      break;
     below = one.begin;
     --first;
   }
@@ -83,7 +84,9 @@ std::string dump_tree(const SyntaxTree& tree) {
     for (; comment != tree.trivia().end() && comment->begin < offset; ++comment) {
       add_line(out, open_ends.size(), "comment ");
       out += trivia_names[static_cast<std::size_t>(comment->kind)];
-      out += ' ' + quoted_string(tree.text().substr(comment->begin, comment->end - comment->begin)) + '\n';
+      out += ' ' +
+             quoted_string(tree.text().substr(comment->begin, comment->end - comment->begin)) +
+             '\n';
     }
   };
   for (std::uint32_t index = 0; index < tree.nodes().size(); ++index) {
@@ -112,7 +115,8 @@ std::string reassembled_text(const SyntaxTree& tree) {
     for (; place < begin; ++place) {
       // Between the pieces there may be blanks only; anything else was lost from the tree.
       const char c = tree.text()[place];
-      const bool kept = c == ' ' || (c >= '\t' && c <= '\r') || (place < 3 && tree.text().starts_with("\xEF\xBB\xBF"));
+      const bool kept = c == ' ' || (c >= '\t' && c <= '\r') ||
+                        (place < 3 && tree.text().starts_with("\xEF\xBB\xBF"));
       if (kept) out += c;
     }
     out += tree.text().substr(begin, end - begin);
@@ -120,11 +124,13 @@ std::string reassembled_text(const SyntaxTree& tree) {
   };
   for (const SyntaxNode& node : tree.nodes()) {
     if (!is_token(node.kind)) continue;
-    for (; comment != tree.trivia().end() && comment->begin < node.begin; ++comment) append(comment->begin, comment->end);
+    for (; comment != tree.trivia().end() && comment->begin < node.begin; ++comment)
+      append(comment->begin, comment->end);
     append(node.begin, node.end);
   }
   for (; comment != tree.trivia().end(); ++comment) append(comment->begin, comment->end);
-  append(static_cast<std::uint32_t>(tree.text().size()), static_cast<std::uint32_t>(tree.text().size()));
+  append(static_cast<std::uint32_t>(tree.text().size()),
+         static_cast<std::uint32_t>(tree.text().size()));
   return out;
 }
 

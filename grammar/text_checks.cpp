@@ -19,9 +19,9 @@ bool is_bidi_control(std::string_view text, std::size_t offset) {
   if (three.size() < 3 || three[0] != '\xE2') return false;
   const unsigned second = static_cast<unsigned char>(three[1]);
   const unsigned third = static_cast<unsigned char>(three[2]);
-  const bool marks = second == 0x80 && (third == 0x8E || third == 0x8F);          // U+200E, U+200F
-  const bool embeddings = second == 0x80 && third >= 0xAA && third <= 0xAE;       // U+202A .. U+202E
-  const bool isolates = second == 0x81 && third >= 0xA6 && third <= 0xA9;         // U+2066 .. U+2069
+  const bool marks = second == 0x80 && (third == 0x8E || third == 0x8F);     // U+200E, U+200F
+  const bool embeddings = second == 0x80 && third >= 0xAA && third <= 0xAE;  // U+202A .. U+202E
+  const bool isolates = second == 0x81 && third >= 0xA6 && third <= 0xA9;    // U+2066 .. U+2069
   return marks || embeddings || isolates;
 }
 
@@ -79,9 +79,11 @@ std::size_t skip_course_trivia(std::string_view text, std::size_t offset) {
 
 Dialect dialect_of(std::string_view path, std::string_view text) {
   const std::size_t dot = path.rfind('.');
-  const std::string_view extension = dot == std::string_view::npos ? std::string_view{} : path.substr(dot);
+  const std::string_view extension =
+      dot == std::string_view::npos ? std::string_view{} : path.substr(dot);
   const auto same = [](char a, char b) { return (a | 0x20) == b; };
-  if (extension.size() == 4 && std::equal(extension.begin() + 1, extension.end(), "sdl", same)) return Dialect::sdl;
+  if (extension.size() == 4 && std::equal(extension.begin() + 1, extension.end(), "sdl", same))
+    return Dialect::sdl;
   std::size_t place = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   place = scan::skip_trivia(text, place);
   if (text.substr(place, scan::token_end(text, place) - place) != "sdl") return Dialect::course;

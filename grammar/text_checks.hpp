@@ -19,7 +19,9 @@ struct CharacterFaults {
 [[nodiscard]] CharacterFaults character_faults(std::string_view text, Dialect dialect);
 
 // In course files blanks are C's isspace; `#` and `//` at the start of a word begin a comment.
-[[nodiscard]] constexpr bool is_course_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+[[nodiscard]] constexpr bool is_course_blank(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
 [[nodiscard]] std::size_t skip_course_trivia(std::string_view text, std::size_t offset);
 
 }  // namespace scenec::grammar

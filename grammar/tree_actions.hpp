@@ -10,15 +10,22 @@
 namespace scenec::grammar {
 
 template <class Rule>
-concept token_rule = requires { Rule::token_kind; };
+concept token_rule = requires {
+  Rule::token_kind;
+};
 template <class Rule>
-concept node_rule = requires { Rule::node_kind; };
+concept node_rule = requires {
+  Rule::node_kind;
+};
 template <class Rule>
-concept wrapping_rule = requires { Rule::wrapping_kind; };
+concept wrapping_rule = requires {
+  Rule::wrapping_kind;
+};
 template <class Rule>
 concept recovering_rule = std::derived_from<Rule, recovers>;
 template <class Rule>
-concept tree_rule = token_rule<Rule> || node_rule<Rule> || wrapping_rule<Rule> || std::derived_from<Rule, restores_depth>;
+concept tree_rule = token_rule<Rule> || node_rule<Rule> || wrapping_rule<Rule> ||
+    std::derived_from<Rule, restores_depth>;
 
 template <class Rule>
 struct build {};
@@ -27,8 +34,7 @@ template <class Rule>
 concept string_rule = std::same_as<Rule, lex::string_text>;
 
 template <class Rule>
-  requires(tree_rule<Rule> && !recovering_rule<Rule>)
-struct build<Rule> {
+requires(tree_rule<Rule> && !recovering_rule<Rule>) struct build<Rule> {
   template <class Same, peg::apply_mode A, peg::rewind_mode M, template <class...> class Action,
             template <class...> class Control, class Input, class... States>
   [[nodiscard]] static bool match(Input& in, TreeBuilder& builder, States&&... states) {
@@ -50,7 +56,8 @@ struct build<Rule> {
   }
 
  private:
-  static void matched(TreeBuilder& builder, std::uint32_t begin, std::uint32_t end, std::uint32_t mark) {
+  static void matched(TreeBuilder& builder, std::uint32_t begin, std::uint32_t end,
+                      std::uint32_t mark) {
     if constexpr (token_rule<Rule>) {
       builder.token(Rule::token_kind, begin, end);
       if constexpr (string_rule<Rule>) check_string(builder, begin, end);
@@ -93,7 +100,8 @@ struct build<Rule> {
     } catch (const BrokenStatement& broken) {
       const std::uint32_t open_brackets = builder.depth().openers - depth.openers;
       builder.restore(depth);
-      in.iterator() = builder.text().data() + resume_after(builder, broken.offset, mark, open_brackets);
+      in.iterator() =
+          builder.text().data() + resume_after(builder, broken.offset, mark, open_brackets);
       return true;
     }
   }

@@ -31,22 +31,28 @@ void add_trivia(std::string_view text, std::uint32_t begin, std::uint32_t end, D
       ++begin;
       continue;
     }
-    const std::uint32_t close = static_cast<std::uint32_t>(std::min<std::size_t>(scan::comment_end(text, begin), end));
+    const std::uint32_t close =
+        static_cast<std::uint32_t>(std::min<std::size_t>(scan::comment_end(text, begin), end));
     const bool native = dialect == Dialect::sdl;
-    trivia.push_back({native ? trivia_kind(text.substr(begin, close - begin)) : TriviaKind::line_comment, begin, close});
+    trivia.push_back(
+        {native ? trivia_kind(text.substr(begin, close - begin)) : TriviaKind::line_comment, begin,
+         close});
     begin = close;
   }
 }
 
 }  // namespace
 
-void NodeStack::grow() { pieces_.push_back(std::make_unique_for_overwrite<SyntaxNode[]>(mask + 1)); }
+void NodeStack::grow() {
+  pieces_.push_back(std::make_unique_for_overwrite<SyntaxNode[]>(mask + 1));
+}
 
 std::vector<SyntaxNode> NodeStack::release() {
   std::vector<SyntaxNode> nodes;
   nodes.reserve(size_);
   for (std::unique_ptr<SyntaxNode[]>& piece : pieces_) {
-    const std::uint32_t count = std::min(mask + 1, size_ - static_cast<std::uint32_t>(nodes.size()));
+    const std::uint32_t count =
+        std::min(mask + 1, size_ - static_cast<std::uint32_t>(nodes.size()));
     nodes.insert(nodes.end(), piece.get(), piece.get() + count);
     piece.reset();
   }
@@ -57,7 +63,11 @@ std::vector<SyntaxNode> NodeStack::release() {
 
 TreeBuilder::TreeBuilder(Dialect dialect, FileId file, std::string_view text, DiagnosticSink& sink,
                          const ParseLimits& limits)
-    : dialect_(dialect), file_(file), text_(text), sink_(sink), limits_(limits),
+    : dialect_(dialect),
+      file_(file),
+      text_(text),
+      sink_(sink),
+      limits_(limits),
       shortest_limit_(std::min(limits.token, limits.string)) {}
 
 void TreeBuilder::node(SyntaxKind kind, std::uint32_t mark) {
@@ -103,8 +113,9 @@ void TreeBuilder::report(Diagnostic diagnostic) {
     return;
   }
   if (muted_) throw Abandon{};
-  sink_.report(Diagnostic(DiagnosticKind::too_many_syntax_errors, diagnostic.span,
-                          fmt::format("more than {} syntax errors; the rest of the file is not read", most_reports)));
+  sink_.report(Diagnostic(
+      DiagnosticKind::too_many_syntax_errors, diagnostic.span,
+      fmt::format("more than {} syntax errors; the rest of the file is not read", most_reports)));
   throw Abandon{};
 }
 
@@ -120,28 +131,46 @@ void TreeBuilder::limit_exceeded(Diagnostic diagnostic) {
 }
 
 void TreeBuilder::nesting_exceeded(std::uint32_t begin, std::uint32_t end) {
-  limit_exceeded(Diagnostic(DiagnosticKind::nesting_too_deep, span(begin, end),
-                            fmt::format("nesting deeper than {} levels", limits_.nesting))
-                     .hint("blocks, brackets, `else if` and chains such as `a.b.c` count one level each"));
+  limit_exceeded(
+      Diagnostic(DiagnosticKind::nesting_too_deep, span(begin, end),
+                 fmt::format("nesting deeper than {} levels", limits_.nesting))
+          .hint("blocks, brackets, `else if` and chains such as `a.b.c` count one level each"));
 }
 
 void TreeBuilder::check_token_limit(SyntaxKind kind, std::uint32_t begin, std::uint32_t end) {
   const bool is_string = kind == SyntaxKind::string;
   const std::uint32_t limit = is_string ? limits_.string : limits_.token;
   if (end - begin <= limit) return;
-  limit_exceeded(Diagnostic(is_string ? DiagnosticKind::string_literal_too_long : DiagnosticKind::text_too_long,
-                            span(begin, end),
-                            fmt::format("{} of {} bytes; the limit is {} bytes",
-                                        is_string ? "a string" : "a word or number", end - begin, limit)));
+  limit_exceeded(Diagnostic(
+      is_string ? DiagnosticKind::string_literal_too_long : DiagnosticKind::text_too_long,
+      span(begin, end),
+      fmt::format("{} of {} bytes; the limit is {} bytes",
+                  is_string ? "a string" : "a word or number", end - begin, limit)));
 }
 
 std::uint32_t TreeBuilder::comment(std::uint32_t begin) {
   const std::size_t end = scan::comment_end(text_, begin);
   if (end != std::string_view::npos) return static_cast<std::uint32_t>(end);
   const std::uint32_t file_end = static_cast<std::uint32_t>(text_.size());
-  report(file_end, Diagnostic(DiagnosticKind::comment_unclosed, span(begin, begin + 2),
-                              "this comment is never closed: expected `*/` before the end of the file"));
+  report(file_end,
+         Diagnostic(DiagnosticKind::comment_unclosed, span(begin, begin + 2),
+                    "this comment is never closed: expected `*/` before the end of the file"));
   return file_end;
+}
+
+std::uint32_t TreeBuilder::skip_trivia(std::uint32_t offset) {
+  while (offset < text_.size()) {
+    const char c = text_[offset];
+    if (scan::is(c, scan::blank)) {
+      ++offset;
+    } else if (c == '/' &&
+               (scan::at(text_, offset + 1) == '/' || scan::at(text_, offset + 1) == '*')) {
+      offset = comment(offset);
+    } else {
+      break;
+    }
+  }
+  return offset;
 }
 
 void TreeBuilder::abandon() {
@@ -159,8 +188,9 @@ void TreeBuilder::admit() {
   const std::size_t size = text_.size();
   if (size <= limit) return check_characters();
   if (size > most) text_ = {};
-  limit_exceeded(Diagnostic(DiagnosticKind::text_too_long, span(0, 0),
-                            fmt::format("the file has {} bytes; the limit is {} bytes", size, limit)));
+  limit_exceeded(
+      Diagnostic(DiagnosticKind::text_too_long, span(0, 0),
+                 fmt::format("the file has {} bytes; the limit is {} bytes", size, limit)));
 }
 
 void TreeBuilder::check_characters() {
@@ -169,11 +199,16 @@ void TreeBuilder::check_characters() {
     return span(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin + size));
   };
   for (std::size_t bidi : faults.bidi_controls) {
-    report(Diagnostic(DiagnosticKind::bidi_control, at_byte(bidi, static_cast<unsigned char>(text_[bidi]) == 0xD8 ? 2 : 3),
-                      "a character that changes the direction of writing: the text is not what it looks like")
-               .hint("remove it, or write it in a string as an escape such as `\\u{202e}`"));
+    report(
+        Diagnostic(
+            DiagnosticKind::bidi_control,
+            at_byte(bidi, static_cast<unsigned char>(text_[bidi]) == 0xD8 ? 2 : 3),
+            "a character that changes the direction of writing: the text is not what it looks like")
+            .hint("remove it, or write it in a string as an escape such as `\\u{202e}`"));
   }
-  if (faults.first_control == CharacterFaults::none && faults.first_invalid == CharacterFaults::none) return;
+  if (faults.first_control == CharacterFaults::none &&
+      faults.first_invalid == CharacterFaults::none)
+    return;
   if (faults.first_control < faults.first_invalid) {
     const unsigned code = static_cast<unsigned char>(text_[faults.first_control]);
     report(Diagnostic(DiagnosticKind::control_character, at_byte(faults.first_control, 1),
@@ -225,7 +260,8 @@ std::vector<Trivia> TreeBuilder::comments(const std::vector<SyntaxNode>& nodes) 
 }
 
 SyntaxTree TreeBuilder::finish(SyntaxKind root) {
-  SCENEC_ASSERT(nodes_.size() > 0 && nodes_.back().kind == root && nodes_.back().next == nodes_.size());
+  SCENEC_ASSERT(nodes_.size() > 0 && nodes_.back().kind == root &&
+                nodes_.back().next == nodes_.size());
   order_nodes();
   std::vector<SyntaxNode> nodes = nodes_.release();
   std::vector<Trivia> trivia = comments(nodes);

@@ -26,7 +26,9 @@ struct Abandon {};
 class NodeStack {
  public:
   [[nodiscard]] std::uint32_t size() const { return size_; }
-  [[nodiscard]] SyntaxNode& operator[](std::uint32_t index) { return pieces_[index >> shift][index & mask]; }
+  [[nodiscard]] SyntaxNode& operator[](std::uint32_t index) {
+    return pieces_[index >> shift][index & mask];
+  }
   [[nodiscard]] SyntaxNode& back() { return (*this)[size_ - 1]; }
   void push(const SyntaxNode& node) {
     if ((size_ & mask) == 0 && (size_ >> shift) == pieces_.size()) grow();
@@ -71,8 +73,12 @@ class TreeBuilder {
   // An error node over `[begin, end)`; over nothing when the range is empty.
   void error_node(std::uint32_t begin, std::uint32_t end);
   // Bytes passed over by recovery, as a token of their own.
-  void skipped(std::uint32_t begin, std::uint32_t end) { nodes_.push({SyntaxKind::error_text, begin, end, 1}); }
-  [[nodiscard]] SyntaxKind last_kind() { return nodes_.size() == 0 ? SyntaxKind::file : nodes_.back().kind; }
+  void skipped(std::uint32_t begin, std::uint32_t end) {
+    nodes_.push({SyntaxKind::error_text, begin, end, 1});
+  }
+  [[nodiscard]] SyntaxKind last_kind() {
+    return nodes_.size() == 0 ? SyntaxKind::file : nodes_.back().kind;
+  }
   // End of the last token, and the token itself (an empty node at 0 when there is none).
   [[nodiscard]] std::uint32_t last_end() { return nodes_.size() == 0 ? 0 : nodes_.back().end; }
   [[nodiscard]] SyntaxNode last_token();
@@ -93,13 +99,17 @@ class TreeBuilder {
     std::uint32_t depth = 0;
     std::uint32_t openers = 0;
   };
-  [[nodiscard]] Depth depth() const { return {depth_, static_cast<std::uint32_t>(openers_.size())}; }
+  [[nodiscard]] Depth depth() const {
+    return {depth_, static_cast<std::uint32_t>(openers_.size())};
+  }
   void restore(Depth depth);
   [[nodiscard]] const std::vector<std::uint32_t>& openers() const { return openers_; }
 
   // Reports. `found` is the offset of the token that does not fit: a second report about the same
   // token is a consequence of the first and is dropped.
-  [[nodiscard]] Span span(std::uint32_t begin, std::uint32_t end) const { return {file_, begin, end}; }
+  [[nodiscard]] Span span(std::uint32_t begin, std::uint32_t end) const {
+    return {file_, begin, end};
+  }
   void report(std::uint32_t found, Diagnostic diagnostic);
   void report(Diagnostic diagnostic);
   [[nodiscard]] bool was_reported(std::uint32_t found) const { return found == last_found_; }
@@ -110,6 +120,8 @@ class TreeBuilder {
 
   // A comment met by the grammar; reports once when it is never closed. Returns its end.
   [[nodiscard]] std::uint32_t comment(std::uint32_t begin);
+  // First offset behind blanks and comments of native text.
+  [[nodiscard]] std::uint32_t skip_trivia(std::uint32_t offset);
 
   // A block that lacks its `{` leaves a `}` behind; the next stray one is its own.
   void owe_closer() { ++owed_closers_; }

@@ -17,11 +17,13 @@ struct RunRequest {
 };
 
 template <class Grammar, template <class...> class Control = peg::normal, class... States>
-[[nodiscard]] SyntaxTree run_grammar(const RunRequest& request, DiagnosticSink& sink, const ParseLimits& limits,
-                                     States&... states) {
-  const std::string_view text = request.text.data() == nullptr ? std::string_view("") : request.text;
+[[nodiscard]] SyntaxTree run_grammar(const RunRequest& request, DiagnosticSink& sink,
+                                     const ParseLimits& limits, States&... states) {
+  const std::string_view text =
+      request.text.data() == nullptr ? std::string_view("") : request.text;
   TreeBuilder builder(request.dialect, request.file, text, sink, limits);
-  peg::memory_input<peg::tracking_mode::lazy, peg::eol::lf_crlf, const char*> in(text.data(), text.size(), "");
+  peg::memory_input<peg::tracking_mode::lazy, peg::eol::lf_crlf, const char*> in(text.data(),
+                                                                                 text.size(), "");
   try {
     builder.admit();
     const bool whole = peg::parse<Grammar, build, Control>(in, builder, states...);

@@ -30,7 +30,8 @@ std::vector<std::string> uncovered(Dialect dialect) {
     if (input.dialect != dialect) continue;
     DiagnosticSink sink;
     TreeBuilder builder(dialect, FileId(0), input.text, sink, {});
-    peg::memory_input<peg::tracking_mode::lazy, peg::eol::lf_crlf, const char*> in(input.text.data(), input.text.size(), "");
+    peg::memory_input<peg::tracking_mode::lazy, peg::eol::lf_crlf, const char*> in(
+        input.text.data(), input.text.size(), "");
     peg::coverage_result result;
     EXPECT_TRUE((peg::coverage<Grammar, build>(in, result, builder))) << input.name;
     for (const auto& [name, entry] : result) successes[std::string(name)] += entry.success;

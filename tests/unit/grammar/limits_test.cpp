@@ -47,13 +47,15 @@ TEST(Limits, nesting_is_one_error_on_a_small_stack) {
       EXPECT_TRUE(parsed.errors()[0].starts_with("E0701")) << parsed.errors()[0];
       EXPECT_TRUE(parsed.sink.only_limits());
     }
-    for (std::string_view piece : {"group {", "if a {", "for i in 0 .. 1 {", "sphere {", "if a { } else "}) {
+    for (std::string_view piece :
+         {"group {", "if a {", "for i in 0 .. 1 {", "sphere {", "if a { } else "}) {
       const Parsed parsed(Dialect::sdl, "sdl 1; " + repeated(piece, 200000));
       ASSERT_EQ(parsed.errors().size(), 1u) << piece;
       EXPECT_TRUE(parsed.errors()[0].starts_with("E0701")) << parsed.errors()[0];
       EXPECT_EQ(reassembled_text(parsed.tree), parsed.text);
     }
-    EXPECT_THAT(Parsed(Dialect::course, repeated("{ ", 200000)).errors(), ElementsAre("E0701 512..513"));
+    EXPECT_THAT(Parsed(Dialect::course, repeated("{ ", 200000)).errors(),
+                ElementsAre("E0701 512..513"));
     EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; let a: " + repeated("[", 200000)).errors().size(), 1u);
     EXPECT_EQ(Parsed(Dialect::sdl, repeated("{", 200000)).errors().size(), 1u);
     EXPECT_EQ(Parsed(Dialect::sdl, repeated(")", 200000)).errors().size(), 1u);
@@ -64,9 +66,11 @@ TEST(Limits, nesting_up_to_the_limit_is_fine) {
   run_on_small_stack([] {
     for (std::size_t depth : {255u, 256u, 257u}) {
       const std::size_t errors = depth > 256 ? 1 : 0;
-      const Parsed parens(Dialect::sdl, "sdl 1; let a = " + repeated("-(1 + 2 * ", depth) + "1" + repeated(")", depth) + ";");
+      const Parsed parens(Dialect::sdl, "sdl 1; let a = " + repeated("-(1 + 2 * ", depth) + "1" +
+                                            repeated(")", depth) + ";");
       EXPECT_EQ(parens.sink.error_count(), errors);
-      const Parsed blocks(Dialect::sdl, "sdl 1; " + repeated("group {", depth) + repeated("}", depth));
+      const Parsed blocks(Dialect::sdl,
+                          "sdl 1; " + repeated("group {", depth) + repeated("}", depth));
       EXPECT_EQ(blocks.sink.error_count(), errors);
       const Parsed members(Dialect::sdl, "sdl 1; let a = b" + repeated(".c", depth) + ";");
       EXPECT_EQ(members.sink.error_count(), errors);
@@ -75,15 +79,18 @@ TEST(Limits, nesting_up_to_the_limit_is_fine) {
 }
 
 TEST(Limits, a_hit_limit_keeps_what_was_read_before) {
-  const Parsed parsed(Dialect::sdl, "sdl 1; let a = 1; let b = ((((1)))); let c = 2;", {.nesting = 3});
-  EXPECT_EQ(outline(parsed.tree).substr(0, 60), "(file (edition sdl 1) (let let a (number_literal 1)) (error ");
+  const Parsed parsed(Dialect::sdl, "sdl 1; let a = 1; let b = ((((1)))); let c = 2;",
+                      {.nesting = 3});
+  EXPECT_EQ(outline(parsed.tree).substr(0, 60),
+            "(file (edition sdl 1) (let let a (number_literal 1)) (error ");
   EXPECT_EQ(reassembled_text(parsed.tree), parsed.text);
 }
 
 TEST(Limits, long_chains_are_flat) {
   run_on_small_stack([] {
-    for (const std::string& text : {"1" + repeated("+1", 1000000), repeated("-", 1000000) + "1", "[" + repeated("1,", 200000) + "]",
-                                    "a" + repeated("&&a*a||a", 100000)}) {
+    for (const std::string& text :
+         {"1" + repeated("+1", 1000000), repeated("-", 1000000) + "1",
+          "[" + repeated("1,", 200000) + "]", "a" + repeated("&&a*a||a", 100000)}) {
       const Parsed parsed(Dialect::sdl, "sdl 1; let a = " + text + ";");
       EXPECT_EQ(parsed.sink.error_count(), 0u);
     }
@@ -91,19 +98,29 @@ TEST(Limits, long_chains_are_flat) {
 }
 
 TEST(Limits, tokens_and_files) {
-  EXPECT_THAT(Parsed(Dialect::sdl, "sdl 1; let abcd = 1; let abcde = 1;", {.token = 4}).errors(), ElementsAre("E0702 25..30"));
-  EXPECT_THAT(Parsed(Dialect::sdl, "sdl 1; a = \"12\"; b = \"123\";", {.string = 5}).errors(), testing::IsEmpty());
-  EXPECT_THAT(Parsed(Dialect::sdl, "sdl 1; a = \"12\"; b = \"123\";", {.token = 3, .string = 4}).errors(), ElementsAre("E0703 21..26"));
+  EXPECT_THAT(Parsed(Dialect::sdl, "sdl 1; let abcd = 1; let abcde = 1;", {.token = 4}).errors(),
+              ElementsAre("E0702 25..30"));
+  EXPECT_THAT(Parsed(Dialect::sdl, "sdl 1; a = \"12\"; b = \"123\";", {.string = 5}).errors(),
+              testing::IsEmpty());
+  EXPECT_THAT(
+      Parsed(Dialect::sdl, "sdl 1; a = \"12\"; b = \"123\";", {.token = 3, .string = 4}).errors(),
+      ElementsAre("E0703 21..26"));
   const Parsed large(Dialect::sdl, "sdl 1; let a = 1;", {.file = 16});
   EXPECT_THAT(large.errors(), ElementsAre("E0702 0..0"));
   EXPECT_EQ(reassembled_text(large.tree), large.text);
 }
 
 TEST(Limits, megabytes_of_one_thing) {
-  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; let " + std::string(16u << 20, 'a') + " = 1;").sink.error_count(), 1u);
-  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; let a = 1;" + std::string(16u << 20, ' ')).sink.error_count(), 0u);
+  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; let " + std::string(16u << 20, 'a') + " = 1;")
+                .sink.error_count(),
+            1u);
+  EXPECT_EQ(
+      Parsed(Dialect::sdl, "sdl 1; let a = 1;" + std::string(16u << 20, ' ')).sink.error_count(),
+      0u);
   EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; //" + std::string(16u << 20, 'x')).sink.error_count(), 0u);
-  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; let a = \"" + std::string(16u << 20, 'x') + "\";").sink.error_count(), 1u);
+  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; let a = \"" + std::string(16u << 20, 'x') + "\";")
+                .sink.error_count(),
+            1u);
 }
 
 }  // namespace

@@ -18,15 +18,18 @@ std::string tree_of(const std::string& text) {
 
 TEST(ParseCourse, braces_split_what_they_touch) {
   EXPECT_EQ(tree_of("Material{shininess 20}Sphere"),
-            "(course_file (course_word Material) (course_block (course_word shininess) (course_number 20)) (course_word Sphere))");
-  EXPECT_EQ(tree_of("[1 .5]"), "(course_file (course_bracket (course_number 1) (course_number .5)))");
+            "(course_file (course_word Material) (course_block (course_word shininess) "
+            "(course_number 20)) (course_word Sphere))");
+  EXPECT_EQ(tree_of("[1 .5]"),
+            "(course_file (course_bracket (course_number 1) (course_number .5)))");
 }
 
 TEST(ParseCourse, a_number_is_a_number_as_a_whole) {
   for (const char* number : {"200.0", "1e-05", ".16", "1.", "+1", "-0", "1E+3", "-.5e2"}) {
     EXPECT_EQ(tree_of(number), "(course_file (course_number " + std::string(number) + "))");
   }
-  for (const char* word : {"2D_tex", "scene..sphere&cube", "-", "mesh/bunny.obj", "1.5f", "1e", ".", "a#b", "http://x", "inf"}) {
+  for (const char* word : {"2D_tex", "scene..sphere&cube", "-", "mesh/bunny.obj", "1.5f", "1e", ".",
+                           "a#b", "http://x", "inf"}) {
     EXPECT_EQ(tree_of(word), "(course_file (course_word " + std::string(word) + "))");
   }
 }
@@ -47,10 +50,13 @@ TEST(ParseCourse, unbalanced_braces_are_reported_where_they_are) {
 }
 
 TEST(ParseCourse, bad_bytes_and_limits) {
-  EXPECT_THAT(Parsed(Dialect::course, std::string("a \0 }", 5)).errors(), ElementsAre("E0123 2..3"));
+  EXPECT_THAT(Parsed(Dialect::course, std::string("a \0 }", 5)).errors(),
+              ElementsAre("E0123 2..3"));
   EXPECT_THAT(Parsed(Dialect::course, "a \xFF }").errors(), ElementsAre("E0124 2..3"));
-  EXPECT_THAT(Parsed(Dialect::course, "a {{{{", {.nesting = 3}).errors(), ElementsAre("E0701 5..6"));
-  EXPECT_THAT(Parsed(Dialect::course, "abcd abcde", {.token = 4}).errors(), ElementsAre("E0702 5..10"));
+  EXPECT_THAT(Parsed(Dialect::course, "a {{{{", {.nesting = 3}).errors(),
+              ElementsAre("E0701 5..6"));
+  EXPECT_THAT(Parsed(Dialect::course, "abcd abcde", {.token = 4}).errors(),
+              ElementsAre("E0702 5..10"));
   EXPECT_THAT(Parsed(Dialect::course, "abcd", {.file = 3}).errors(), ElementsAre("E0702 0..0"));
 }
 

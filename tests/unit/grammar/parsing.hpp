@@ -18,13 +18,15 @@ struct Parsed {
 
   Parsed(Dialect dialect, std::string source, const ParseLimits& limits = {})
       : text(std::move(source)),
-        tree(dialect == Dialect::sdl ? parse_sdl(FileId(0), text, sink, limits) : parse_course(FileId(0), text, sink, limits)) {}
+        tree(dialect == Dialect::sdl ? parse_sdl(FileId(0), text, sink, limits)
+                                     : parse_course(FileId(0), text, sink, limits)) {}
 
   // "E0102 12..12" for each diagnostic, sorted.
   [[nodiscard]] std::vector<std::string> errors() const {
     std::vector<std::string> lines;
     for (const Diagnostic& one : sink.sorted()) {
-      lines.push_back(std::string(info_of(one.kind).code) + " " + std::to_string(one.span.begin) + ".." + std::to_string(one.span.end));
+      lines.push_back(std::string(info_of(one.kind).code) + " " + std::to_string(one.span.begin) +
+                      ".." + std::to_string(one.span.end));
     }
     return lines;
   }
@@ -43,7 +45,8 @@ inline std::string outline(const SyntaxTree& tree) {
     const SyntaxNode& node = tree.nodes()[index];
     for (; !ends.empty() && ends.back() <= index; ends.pop_back()) out += ')';
     if (is_token(node.kind)) {
-      if (node.kind != SyntaxKind::punctuation) out += ' ' + std::string(tree.text().substr(node.begin, node.end - node.begin));
+      if (node.kind != SyntaxKind::punctuation)
+        out += ' ' + std::string(tree.text().substr(node.begin, node.end - node.begin));
       continue;
     }
     if (!out.empty()) out += ' ';

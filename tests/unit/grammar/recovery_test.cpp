@@ -14,7 +14,10 @@ using testing::ElementsAre;
 void expect_marked(const std::string& text) {
   std::vector<std::string> expected;
   std::vector<std::string> actual;
-  const auto line_of = [&](std::size_t offset) { return std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n')); };
+  const auto line_of = [&](std::size_t offset) {
+    return std::to_string(
+        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
+  };
   for (std::size_t at = text.find("E0"); at != std::string::npos; at = text.find("E0", at + 1)) {
     expected.push_back(line_of(at) + " " + text.substr(at, 5));
   }
@@ -22,7 +25,8 @@ void expect_marked(const std::string& text) {
   for (const Diagnostic& one : parsed.sink.sorted()) {
     actual.push_back(line_of(one.span.begin) + " " + std::string(info_of(one.kind).code));
   }
-  EXPECT_THAT(actual, testing::ElementsAreArray(expected)) << testing::PrintToString(parsed.messages());
+  EXPECT_THAT(actual, testing::ElementsAreArray(expected))
+      << testing::PrintToString(parsed.messages());
   EXPECT_EQ(reassembled_text(parsed.tree), parsed.text);
 }
 
@@ -47,7 +51,9 @@ TEST(Recovery, seven_lines_with_six_mistakes) {
 }
 
 TEST(Recovery, spans_are_the_narrowest) {
-  const auto errors = [](const std::string& text) { return Parsed(Dialect::sdl, "sdl 1;" + text).errors(); };
+  const auto errors = [](const std::string& text) {
+    return Parsed(Dialect::sdl, "sdl 1;" + text).errors();
+  };
   EXPECT_THAT(errors("a = 1 }"), ElementsAre("E0102 11..11", "E0119 12..13"));
   EXPECT_THAT(errors("a: 1;"), ElementsAre("E0106 7..8"));
   EXPECT_THAT(errors("a = (1;"), ElementsAre("E0118 10..11"));
@@ -75,13 +81,17 @@ TEST(Recovery, the_edition_comes_first) {
 }
 
 TEST(Recovery, bad_bytes_are_the_only_report) {
-  EXPECT_THAT(Parsed(Dialect::sdl, std::string("sdl 1; \0 let", 12)).errors(), ElementsAre("E0123 7..8"));
+  EXPECT_THAT(Parsed(Dialect::sdl, std::string("sdl 1; \0 let", 12)).errors(),
+              ElementsAre("E0123 7..8"));
   EXPECT_THAT(Parsed(Dialect::sdl, "sdl 1; \xC0\xAF \xFF").errors(), ElementsAre("E0124 7..8"));
-  EXPECT_THAT(Parsed(Dialect::sdl, "sdl 1; // \xE2\x80\xAE\nlet a 1;").errors(), ElementsAre("E0125 10..13", "E0101 20..21"));
+  EXPECT_THAT(Parsed(Dialect::sdl, "sdl 1; // \xE2\x80\xAE\nlet a 1;").errors(),
+              ElementsAre("E0125 10..13", "E0101 20..21"));
 }
 
 TEST(Recovery, a_lost_brace_is_not_reported_twice) {
-  const auto errors = [](const std::string& text) { return Parsed(Dialect::sdl, "sdl 1;\n" + text).errors(); };
+  const auto errors = [](const std::string& text) {
+    return Parsed(Dialect::sdl, "sdl 1;\n" + text).errors();
+  };
   EXPECT_THAT(errors("sphere radius = 3; }\nlet a = 1;"), ElementsAre("E0101 14..20"));
   EXPECT_THAT(errors("if x = 3 { } else { }\nlet a = 1;"), ElementsAre("E0101 12..13"));
   EXPECT_THAT(errors("for i on x { a = ; }"), ElementsAre("E0101 13..15"));
@@ -90,7 +100,8 @@ TEST(Recovery, a_lost_brace_is_not_reported_twice) {
 TEST(Recovery, broken_text_stays_in_the_tree) {
   const Parsed parsed(Dialect::sdl, "sdl 1; sphere { a = 1 + * 2; b = 3; }");
   EXPECT_EQ(outline(parsed.tree),
-            "(file (edition sdl 1) (shape sphere (block (error a (number_literal 1) + * 2;) (field b (number_literal 3)))))");
+            "(file (edition sdl 1) (shape sphere (block (error a (number_literal 1) + * 2;) (field "
+            "b (number_literal 3)))))");
   const Parsed empty(Dialect::sdl, "sdl 1; a = ;");
   EXPECT_EQ(outline(empty.tree), "(file (edition sdl 1) (field a (error)))");
 }

@@ -43,8 +43,10 @@ TEST(SyntaxTree, holds_every_byte_of_every_input) {
       const Parsed parsed(dialect, input.text);
       expect_sound(parsed.tree);
       EXPECT_EQ(reassembled_text(parsed.tree), input.text) << input.name;
-      const bool broken = parsed.tree.nodes().end() != std::find_if(parsed.tree.nodes().begin(), parsed.tree.nodes().end(),
-                                                                     [](const SyntaxNode& node) { return node.kind == SyntaxKind::error; });
+      const bool broken =
+          parsed.tree.nodes().end() !=
+          std::find_if(parsed.tree.nodes().begin(), parsed.tree.nodes().end(),
+                       [](const SyntaxNode& node) { return node.kind == SyntaxKind::error; });
       if (broken) {
         EXPECT_TRUE(parsed.sink.has_errors()) << input.name;
       }
@@ -64,7 +66,8 @@ TEST(SyntaxTree, holds_every_byte_of_mutated_inputs) {
   const std::uint32_t seed = 20240611;
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
-  const std::string bytes("{}()[];:=,.@#\"/*\\%-+<>&|!? \n\rabz019e\x00\xFF\xE2\x80\xAE", 45);
+  static constexpr char marks[] = "{}()[];:=,.@#\"/*\\%-+<>&|!? \n\rabz019e\x00\xFF\xE2\x80\xAE";
+  const std::string bytes(marks, sizeof marks - 1);  // the NUL among them counts
   const auto below = [&](std::size_t limit) { return static_cast<std::size_t>(random()) % limit; };
   const std::vector<GoldenInput> inputs = golden_inputs();
   for (int round = 0; round < 4000; ++round) {
@@ -72,10 +75,18 @@ TEST(SyntaxTree, holds_every_byte_of_mutated_inputs) {
     for (std::size_t change = 1 + below(6); change > 0 && !text.empty(); --change) {
       const std::size_t place = below(text.size());
       switch (below(4)) {
-        case 0: text[place] = bytes[below(bytes.size())]; break;
-        case 1: text.insert(place, 1, bytes[below(bytes.size())]); break;
-        case 2: text.erase(place, 1 + below(8)); break;
-        default: text.resize(place); break;
+        case 0:
+          text[place] = bytes[below(bytes.size())];
+          break;
+        case 1:
+          text.insert(place, 1, bytes[below(bytes.size())]);
+          break;
+        case 2:
+          text.erase(place, 1 + below(8));
+          break;
+        default:
+          text.resize(place);
+          break;
       }
     }
     const Dialect dialect = below(3) == 0 ? Dialect::course : Dialect::sdl;
@@ -84,7 +95,9 @@ TEST(SyntaxTree, holds_every_byte_of_mutated_inputs) {
     ASSERT_EQ(reassembled_text(parsed.tree), text) << "round " << round;
     // What was dropped from the tree without a report would be silently ignored by the compiler.
     bool has_error = false;
-    for (const SyntaxNode& node : parsed.tree.nodes()) has_error = has_error || node.kind == SyntaxKind::error || node.kind == SyntaxKind::error_text;
+    for (const SyntaxNode& node : parsed.tree.nodes())
+      has_error =
+          has_error || node.kind == SyntaxKind::error || node.kind == SyntaxKind::error_text;
     if (has_error) {
       ASSERT_TRUE(parsed.sink.has_errors()) << text;
     }
