@@ -19,7 +19,9 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-double length(const Vector& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+double length(const Vector& v) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
 
 Vector scaled_to(const Vector& v, double wanted) {
   const double own = length(v);
@@ -33,7 +35,8 @@ struct Axis {
   double sign = 1;
 };
 std::optional<Axis> axis_of(std::string_view word) {
-  if (word.size() != 2 || word[0] < 'X' || word[0] > 'Z' || (word[1] != '+' && word[1] != '-')) return std::nullopt;
+  if (word.size() != 2 || word[0] < 'X' || word[0] > 'Z' || (word[1] != '+' && word[1] != '-'))
+    return std::nullopt;
   return Axis{static_cast<std::size_t>(word[0] - 'X'), word[1] == '+' ? 1.0 : -1.0};
 }
 constexpr std::array<Role, 3> axis_roles{Role::axis_x, Role::axis_y, Role::axis_z};
@@ -63,9 +66,12 @@ void Lights::write_disk(const Light& light, Text& out) {
   if (!require(light, {Role::position, Role::direction, Role::radius, Role::color})) return;
   Item item;
   item.head.put("light: disk", light.block.word_span);
-  item.add("center", list_of(light.fields[Role::position].numbers), light.fields[Role::position].span);
-  item.add("normal", list_of(light.fields[Role::direction].numbers), light.fields[Role::direction].span);
-  item.add("radius", text_of(light.fields[Role::radius].numbers[0]), light.fields[Role::radius].span);
+  item.add("center", list_of(light.fields[Role::position].numbers),
+           light.fields[Role::position].span);
+  item.add("normal", list_of(light.fields[Role::direction].numbers),
+           light.fields[Role::direction].span);
+  item.add("radius", text_of(light.fields[Role::radius].numbers[0]),
+           light.fields[Role::radius].span);
   add_strength(item, light);
   finish(item, light, out);
 }
@@ -75,7 +81,8 @@ void Lights::write_axis_disk(const Light& light, Text& out) {
   const Entry& normal = light.fields[Role::direction];
   const auto axis = axis_of(normal.name);
   if (!axis) {
-    context_.error(DiagnosticKind::course_wrong_values, normal.span, "`normal` takes one of `X+`, `X-`, `Y+`, `Y-`, `Z+`, `Z-` here");
+    context_.error(DiagnosticKind::course_wrong_values, normal.span,
+                   "`normal` takes one of `X+`, `X-`, `Y+`, `Y-`, `Z+`, `Z-` here");
     return;
   }
   Vector center{};
@@ -89,7 +96,8 @@ void Lights::write_axis_disk(const Light& light, Text& out) {
   item.head.put("light: disk", light.block.word_span);
   item.add("center", list_of_values(center, light.fields[Role::position].values_span()));
   item.add("normal", list_of_values(direction, normal.name_span), normal.span);
-  item.add("radius", text_of(light.fields[Role::radius].numbers[0]), light.fields[Role::radius].span);
+  item.add("radius", text_of(light.fields[Role::radius].numbers[0]),
+           light.fields[Role::radius].span);
   add_strength(item, light);
   finish(item, light, out);
 }
@@ -99,7 +107,8 @@ void Lights::write_axis_rect(const Light& light, Text& out) {
   const Entry& normal = light.fields[Role::direction];
   const auto axis = axis_of(normal.name);
   if (!axis) {
-    context_.error(DiagnosticKind::course_wrong_values, normal.span, "`normal` takes one of `X+`, `X-`, `Y+`, `Y-`, `Z+`, `Z-` here");
+    context_.error(DiagnosticKind::course_wrong_values, normal.span,
+                   "`normal` takes one of `X+`, `X-`, `Y+`, `Y-`, `Z+`, `Z-` here");
     return;
   }
   Vector corner{};
@@ -109,7 +118,8 @@ void Lights::write_axis_rect(const Light& light, Text& out) {
     const std::size_t i = (axis->index + 1 + k) % 3;
     const Entry* const range = light.fields.find(axis_roles[i]);
     if (range == nullptr || range->numbers.size() != 2) {
-      context_.error(DiagnosticKind::course_missing_word, range == nullptr ? light.block.word_span : range->span,
+      context_.error(DiagnosticKind::course_missing_word,
+                     range == nullptr ? light.block.word_span : range->span,
                      fmt::format("`RectLight` needs `{}` with 2 numbers", axis_words[i]));
       return;
     }
@@ -129,7 +139,9 @@ void Lights::write_axis_rect(const Light& light, Text& out) {
 
 // Centred at `position`, dy along `up`, facing `direction`.
 void Lights::write_rect(const Light& light, Text& out) {
-  if (!require(light, {Role::position, Role::direction, Role::up, Role::size_x, Role::size_y, Role::color})) return;
+  if (!require(light, {Role::position, Role::direction, Role::up, Role::size_x, Role::size_y,
+                       Role::color}))
+    return;
   const Vector position = vector_of(light.fields[Role::position]);
   const Vector direction = vector_of(light.fields[Role::direction]);
   const Vector across = cross(vector_of(light.fields[Role::up]), direction);
@@ -157,14 +169,16 @@ void Lights::write_area(const Light& light, Text& out) {
   if (light.fields.find(Role::area) != nullptr) return write_disk_of_area(light, out);
   if (light.fields.find(Role::radius) != nullptr) return write_disk(light, out);
   context_.error(DiagnosticKind::course_missing_word, light.block.word_span,
-                 "`AreaLight` lacks its shape: `vertex0` .. `vertex2`, `axis1` and `axis2`, `dirX` and `dirY`, `area`, `mesh` or an object");
+                 "`AreaLight` lacks its shape: `vertex0` .. `vertex2`, `axis1` and `axis2`, `dirX` "
+                 "and `dirY`, `area`, `mesh` or an object");
 }
 
 void Lights::write_parallelogram(const Light& light, Text& out) {
   if (!require(light, {Role::position, Role::edge_u, Role::edge_v, Role::color})) return;
   Item item;
   item.head.put("light: quad", light.block.word_span);
-  item.add("corner", list_of(light.fields[Role::position].numbers), light.fields[Role::position].span);
+  item.add("corner", list_of(light.fields[Role::position].numbers),
+           light.fields[Role::position].span);
   item.add("edge_u", list_of(light.fields[Role::edge_u].numbers), light.fields[Role::edge_u].span);
   item.add("edge_v", list_of(light.fields[Role::edge_v].numbers), light.fields[Role::edge_v].span);
   add_strength(item, light);
@@ -176,16 +190,22 @@ void Lights::write_disk_of_area(const Light& light, Text& out) {
   const Entry& area = light.fields[Role::area];
   Item item;
   item.head.put("light: disk", light.block.word_span);
-  item.add("center", list_of(light.fields[Role::position].numbers), light.fields[Role::position].span);
-  item.add("normal", list_of(light.fields[Role::direction].numbers), light.fields[Role::direction].span);
-  item.add("radius", text_of_value(std::sqrt(std::max(area.numbers[0].value, 0.0) / std::numbers::pi), area.values_span()), area.span);
+  item.add("center", list_of(light.fields[Role::position].numbers),
+           light.fields[Role::position].span);
+  item.add("normal", list_of(light.fields[Role::direction].numbers),
+           light.fields[Role::direction].span);
+  item.add("radius",
+           text_of_value(std::sqrt(std::max(area.numbers[0].value, 0.0) / std::numbers::pi),
+                         area.values_span()),
+           area.span);
   add_strength(item, light);
   finish(item, light, out);
 }
 
 void Lights::write_triangle(const Light& light, Text& out) {
   if (!require(light, {Role::vertex0, Role::vertex1, Role::vertex2, Role::color})) return;
-  const EmissiveTriangle corners{vector_of(light.fields[Role::vertex0]), vector_of(light.fields[Role::vertex1]),
+  const EmissiveTriangle corners{vector_of(light.fields[Role::vertex0]),
+                                 vector_of(light.fields[Role::vertex1]),
                                  vector_of(light.fields[Role::vertex2])};
   const auto& triangles = objects_.emissive_triangles();
   if (std::find(triangles.begin(), triangles.end(), corners) != triangles.end()) return;
@@ -207,7 +227,8 @@ void Lights::write_mesh(const Light& light, Text& out) {
   const auto path = find_asset(context_, file.name, file.name_span);
   if (!path) return;
   const Entry* const size = light.fields.find(Role::size);
-  const Vector x = scaled_to(vector_of(light.fields[Role::right]), size == nullptr ? 1 : size->numbers[0].value);
+  const Vector x =
+      scaled_to(vector_of(light.fields[Role::right]), size == nullptr ? 1 : size->numbers[0].value);
   const Vector y = scaled_to(vector_of(light.fields[Role::up]), 1);
   const Vector z = scaled_to(cross(x, y), size == nullptr ? 1 : size->numbers[1].value);
   const Vector position = vector_of(light.fields[Role::position]);
@@ -221,7 +242,8 @@ void Lights::write_mesh(const Light& light, Text& out) {
   item.head.put("mesh", light.block.word_span);
   item.add("file", path_text(context_, *path, file.name_span), file.span);
   item.add("material", Text(material));
-  item.add("transform", Text("matrix(").put(list_of_values(matrix, light.block.word_span)).put(")"));
+  item.add("transform",
+           Text("matrix(").put(list_of_values(matrix, light.block.word_span)).put(")"));
   finish(item, light, out);
 }
 

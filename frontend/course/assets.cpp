@@ -22,7 +22,8 @@ std::string absolute_path(const std::string& path) {
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
+    text.remove_suffix(1);
   return text;
 }
 
@@ -35,7 +36,8 @@ void for_each_line(std::string_view text, Take&& take) {
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (line.empty() || line.front() == '#') continue;
     const std::size_t blank = line.find_first_of(" \t");
-    take(line.substr(0, blank), blank == std::string_view::npos ? std::string_view{} : trimmed(line.substr(blank)));
+    take(line.substr(0, blank),
+         blank == std::string_view::npos ? std::string_view{} : trimmed(line.substr(blank)));
   }
 }
 
@@ -102,11 +104,13 @@ void take_color(std::string_view rest, std::array<double, 3>& color) {
 std::optional<std::string> find_asset(Context& context, std::string_view name, Span where) {
   const std::string scene_directory = directory_of(context.options.scene_path);
   const std::string parent = joined_path(scene_directory.empty() ? "." : scene_directory, "..");
-  const std::string places[] = {normalized_path(name), joined_path(scene_directory, name), joined_path(parent, name)};
+  const std::string places[] = {normalized_path(name), joined_path(scene_directory, name),
+                                joined_path(parent, name)};
   for (const std::string& place : places) {
     if (context.files.is_file(place)) return place;
   }
-  Diagnostic diagnostic(DiagnosticKind::course_missing_file, where, fmt::format("there is no file `{}`", printable(name)));
+  Diagnostic diagnostic(DiagnosticKind::course_missing_file, where,
+                        fmt::format("there is no file `{}`", printable(name)));
   std::string tried;
   for (std::size_t i = 0; i < std::size(places); ++i) {
     if (i > 0 && (places[i] == places[i - 1] || places[i] == places[0])) continue;
@@ -118,21 +122,27 @@ std::optional<std::string> find_asset(Context& context, std::string_view name, S
 
 Text path_text(const Context& context, const std::string& path, Span origin) {
   const std::string directory = normalized_path(context.options.output_directory);
-  const bool lexical = path.starts_with('/') == directory.starts_with('/') && !directory.starts_with("..");
-  const std::string written = lexical ? relative_path(path, directory)
-                                      : relative_path(absolute_path(path), absolute_path(directory));
+  const bool lexical =
+      path.starts_with('/') == directory.starts_with('/') && !directory.starts_with("..");
+  const std::string written = lexical
+                                  ? relative_path(path, directory)
+                                  : relative_path(absolute_path(path), absolute_path(directory));
   return {quoted_string(written), origin};
 }
 
-std::optional<ObjMaterial> read_obj_material(Context& context, const std::string& obj_path, Span where) {
+std::optional<ObjMaterial> read_obj_material(Context& context, const std::string& obj_path,
+                                             Span where) {
   const auto obj = context.files.read(obj_path, size_limit);
   if (!obj) return std::nullopt;  // the mesh itself is reported where it is read
   const ObjSummary summary = summary_of(obj.value().bytes);
   if (summary.main_material.empty()) return std::nullopt;
   if (summary.material_count > 1) {
-    context.error(DiagnosticKind::course_single_material, where,
-                  fmt::format("the mesh has {} materials; all of it is drawn with `{}`, which {} of its {} faces use",
-                              summary.material_count, printable(summary.main_material), summary.main_faces, summary.faces));
+    context.error(
+        DiagnosticKind::course_single_material, where,
+        fmt::format(
+            "the mesh has {} materials; all of it is drawn with `{}`, which {} of its {} faces use",
+            summary.material_count, printable(summary.main_material), summary.main_faces,
+            summary.faces));
   }
   for (const std::string& library : summary.libraries) {
     const std::string path = joined_path(directory_of(obj_path), library);
@@ -159,8 +169,9 @@ std::optional<ObjMaterial> read_obj_material(Context& context, const std::string
       if (context.files.is_file(texture)) {
         material.texture = texture;
       } else {
-        context.error(DiagnosticKind::course_missing_file, where,
-                      fmt::format("there is no file `{}`, a texture of this mesh", printable(texture)));
+        context.error(
+            DiagnosticKind::course_missing_file, where,
+            fmt::format("there is no file `{}`, a texture of this mesh", printable(texture)));
       }
     }
     return material;

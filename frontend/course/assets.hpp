@@ -13,7 +13,8 @@
 namespace scenec::frontend::course {
 
 // Tries the working directory, the scene's directory and its parent. nullopt: nowhere (reported).
-[[nodiscard]] std::optional<std::string> find_asset(Context& context, std::string_view name, Span where);
+[[nodiscard]] std::optional<std::string> find_asset(Context& context, std::string_view name,
+                                                    Span where);
 // The path as a string literal, relative to the output directory.
 [[nodiscard]] Text path_text(const Context& context, const std::string& path, Span origin);
 
@@ -26,6 +27,7 @@ struct ObjMaterial {
 };
 // nullopt: the OBJ names no material that could be read. Warns where it has several, and reports a
 // missing texture.
-[[nodiscard]] std::optional<ObjMaterial> read_obj_material(Context& context, const std::string& obj_path, Span where);
+[[nodiscard]] std::optional<ObjMaterial> read_obj_material(Context& context,
+                                                           const std::string& obj_path, Span where);
 
 }  // namespace scenec::frontend::course

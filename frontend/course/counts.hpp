@@ -18,19 +18,22 @@ struct Count {
   void state(const Entry& entry) { stated = entry.numbers.front(); }
   // `what` in the singular. A block without its count is an error unless a count with wrong values
   // was reported.
-  void check(Context& context, std::string_view word, std::string_view what, const BlockReader& reader,
-             Span block_word = {}) const {
+  void check(Context& context, std::string_view word, std::string_view what,
+             const BlockReader& reader, Span block_word = {}) const {
     if (!stated) {
       if (!reader.had_mistakes() && block_word.valid()) {
-        context.error(DiagnosticKind::course_missing_word, block_word, fmt::format("`{}` is missing", word));
+        context.error(DiagnosticKind::course_missing_word, block_word,
+                      fmt::format("`{}` is missing", word));
       }
       return;
     }
     if (stated->value == static_cast<double>(found) || reader.had_unknown()) return;
-    context.sink.report(Diagnostic(DiagnosticKind::course_wrong_count, stated->span,
-                                   fmt::format("`{}` is {}, but there {} {} {}{}", word, short_number_text(stated->value),
-                                               found == 1 ? "is" : "are", found, what, found == 1 ? "" : "s"))
-                            .fix(stated->span, std::to_string(found)));
+    context.sink.report(
+        Diagnostic(
+            DiagnosticKind::course_wrong_count, stated->span,
+            fmt::format("`{}` is {}, but there {} {} {}{}", word, short_number_text(stated->value),
+                        found == 1 ? "is" : "are", found, what, found == 1 ? "" : "s"))
+            .fix(stated->span, std::to_string(found)));
   }
 };
 

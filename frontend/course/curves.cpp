@@ -19,7 +19,8 @@ bool split_flat(std::vector<Number> numbers, std::vector<std::vector<Number>>& p
     numbers.erase(numbers.begin());
   }
   if (numbers.size() % 3 != 0) return false;
-  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) points.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+    points.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
   return true;
 }
 
@@ -34,7 +35,8 @@ Number without_sign(Number number) {
 
 }  // namespace
 
-std::optional<std::vector<std::vector<Number>>> read_controls(Context& context, const Entry& curve) {
+std::optional<std::vector<std::vector<Number>>> read_controls(Context& context,
+                                                              const Entry& curve) {
   const Fields fields(context, curve, Place::curve, {Role::points});
   if (!fields.complete()) return std::nullopt;
   const Entry& controls = fields[Role::points];
@@ -47,7 +49,8 @@ std::optional<std::vector<std::vector<Number>>> read_controls(Context& context, 
     points.clear();
     good = split_flat(flat, points);
   } else {
-    for (const std::vector<Number>& point : points) good = good && (point.size() == 3 || point.size() == 2);
+    for (const std::vector<Number>& point : points)
+      good = good && (point.size() == 3 || point.size() == 2);
   }
   if (!good) {
     context.error(DiagnosticKind::course_wrong_values, controls.word_span,
@@ -56,8 +59,8 @@ std::optional<std::vector<std::vector<Number>>> read_controls(Context& context, 
   }
   if (points.size() < least_points) {
     context.error(DiagnosticKind::course_few_points, controls.word_span,
-                  fmt::format("the curve has {} control point{}; it needs at least {}", points.size(),
-                              points.size() == 1 ? "" : "s", least_points));
+                  fmt::format("the curve has {} control point{}; it needs at least {}",
+                              points.size(), points.size() == 1 ? "" : "s", least_points));
     return std::nullopt;
   }
   return points;
@@ -83,7 +86,8 @@ std::optional<Text> read_profile(Context& context, const Entry& profile) {
     left = left && point[0].value <= 0;
     if (point.size() > 2 && point[2].value != 0) {
       context.error(DiagnosticKind::course_profile_depth, point[2].span,
-                    fmt::format("the profile has z = {} here; it must lie in the plane z = 0", short_number_text(point[2].value)));
+                    fmt::format("the profile has z = {} here; it must lie in the plane z = 0",
+                                short_number_text(point[2].value)));
       return std::nullopt;
     }
   }
@@ -119,7 +123,8 @@ void Objects::write_revolve(const Entry& entry, const Target& target) {
   item.head.put("revolve", entry.word_span);
   item.add("profile", std::move(*profile), fields[Role::profile].span);
   Operations own;
-  if (const Entry* const position = fields.find(Role::position); position != nullptr && vector_of(*position) != std::array<double, 3>{}) {
+  if (const Entry* const position = fields.find(Role::position);
+      position != nullptr && vector_of(*position) != std::array<double, 3>{}) {
     own.push_back(Text("move(").put(list_of(position->numbers)).put(")"));
   }
   finish(item, entry, own, target, NeedsMaterial::no);

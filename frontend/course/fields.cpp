@@ -20,19 +20,22 @@ std::string_view word_for(Place place, Role role) {
 
 }  // namespace
 
-Fields::Fields(Context& context, const Entry& block, Place place, std::initializer_list<Role> required) {
+Fields::Fields(Context& context, const Entry& block, Place place,
+               std::initializer_list<Role> required) {
   BlockReader reader(context, block.block, place);
   while (auto entry = reader.next()) {
-    const auto same = std::find_if(entries_.begin(), entries_.end(),
-                                   [&](const Entry& other) { return other.role() == entry->role(); });
+    const auto same = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& other) {
+      return other.role() == entry->role();
+    });
     if (same == entries_.end()) {
       entries_.push_back(std::move(*entry));
       continue;
     }
     const bool harmless = entry->role() == Role::ignored || entry->role() == Role::ignored_block;
     if (!harmless) {
-      context.warn_once(DiagnosticKind::course_repeated_word, entry->word->text, entry->word_span,
-                        fmt::format("`{}` replaces an earlier value in this block", entry->word->text));
+      context.warn_once(
+          DiagnosticKind::course_repeated_word, entry->word->text, entry->word_span,
+          fmt::format("`{}` replaces an earlier value in this block", entry->word->text));
     }
     *same = std::move(*entry);
   }
@@ -45,7 +48,8 @@ Fields::Fields(Context& context, const Entry& block, Place place, std::initializ
   }
   if (!missing.empty() && !reader.had_unknown()) {
     context.error(DiagnosticKind::course_missing_word, block.word_span,
-                  fmt::format("`{}` lacks {}", block.name.empty() ? block.word->text : block.name, quoted_list(missing)));
+                  fmt::format("`{}` lacks {}", block.name.empty() ? block.word->text : block.name,
+                              quoted_list(missing)));
   }
 }
 
@@ -63,7 +67,8 @@ double Fields::value(Role role, double otherwise) const {
 
 std::array<double, 3> vector_of(const Entry& entry) {
   std::array<double, 3> vector{};
-  for (std::size_t i = 0; i < 3 && i < entry.numbers.size(); ++i) vector[i] = entry.numbers[i].value;
+  for (std::size_t i = 0; i < 3 && i < entry.numbers.size(); ++i)
+    vector[i] = entry.numbers[i].value;
   return vector;
 }
 

@@ -37,7 +37,8 @@ void Lights::read(const Entry& block, Place place) {
       lights_.push_back({*entry, Fields(context_, *entry, Place::light, {})});
     }
   }
-  count.check(context_, place == Place::lights ? "numLights" : "numDiskLights", "light", reader, block.word_span);
+  count.check(context_, place == Place::lights ? "numLights" : "numDiskLights", "light", reader,
+              block.word_span);
 }
 
 void Lights::write(Text& out, bool inverse_pi) {
@@ -47,17 +48,28 @@ void Lights::write(Text& out, bool inverse_pi) {
 
 void Lights::write_one(const Light& light, Text& out) {
   switch (light.block.role()) {
-    case Role::point_light: return write_point(light, out);
-    case Role::directional_light: return write_directional(light, out);
-    case Role::sphere_light: return write_sphere(light, out);
-    case Role::disk_light: return write_disk(light, out);
-    case Role::spot_light: return write_spot(light, out);
-    case Role::axis_disk_light: return write_axis_disk(light, out);
-    case Role::axis_rect_light: return write_axis_rect(light, out);
-    case Role::rect_light: return write_rect(light, out);
-    case Role::area_light: return write_area(light, out);
-    case Role::skybox: return write_skybox(light, out);
-    default: return;
+    case Role::point_light:
+      return write_point(light, out);
+    case Role::directional_light:
+      return write_directional(light, out);
+    case Role::sphere_light:
+      return write_sphere(light, out);
+    case Role::disk_light:
+      return write_disk(light, out);
+    case Role::spot_light:
+      return write_spot(light, out);
+    case Role::axis_disk_light:
+      return write_axis_disk(light, out);
+    case Role::axis_rect_light:
+      return write_axis_rect(light, out);
+    case Role::rect_light:
+      return write_rect(light, out);
+    case Role::area_light:
+      return write_area(light, out);
+    case Role::skybox:
+      return write_skybox(light, out);
+    default:
+      return;
   }
 }
 
@@ -67,8 +79,10 @@ bool Lights::require(const Light& light, std::initializer_list<Role> roles) {
     const Entry* const entry = light.fields.find(role);
     // `power` in three numbers is a colour.
     const Entry* const power = light.fields.find(Role::power);
-    if (entry == nullptr && role == Role::color && power != nullptr && power->numbers.size() == 3) continue;
-    if (entry == nullptr && role == Role::color && light.fields.find(Role::radiance) != nullptr) continue;
+    if (entry == nullptr && role == Role::color && power != nullptr && power->numbers.size() == 3)
+      continue;
+    if (entry == nullptr && role == Role::color && light.fields.find(Role::radiance) != nullptr)
+      continue;
     if (entry == nullptr) missing.push_back(word_of_light(role));
   }
   // What had wrong values was reported where it stands.
@@ -78,10 +92,12 @@ bool Lights::require(const Light& light, std::initializer_list<Role> roles) {
   }
   if (!missing.empty()) return false;
   const Entry* const position = light.fields.find(Role::position);
-  const bool on_axis = light.block.role() == Role::axis_disk_light || light.block.role() == Role::axis_rect_light;
+  const bool on_axis =
+      light.block.role() == Role::axis_disk_light || light.block.role() == Role::axis_rect_light;
   if (position != nullptr && (position->numbers.size() == 1) != on_axis) {
     context_.error(DiagnosticKind::course_wrong_values, position->values_span(),
-                   fmt::format("`position` of `{}` takes {}", light.block.word->text, on_axis ? "a number" : "3 numbers"));
+                   fmt::format("`position` of `{}` takes {}", light.block.word->text,
+                               on_axis ? "a number" : "3 numbers"));
     return false;
   }
   return true;
@@ -103,7 +119,8 @@ Text Lights::color_of_light(const Light& light) const {
 void Lights::add_strength(Item& item, const Light& light) const {
   const Entry* const power = light.fields.find(Role::power);
   if (power != nullptr) {
-    item.add("power", power->numbers.size() == 1 ? text_of(power->numbers[0]) : Text("1"), power->span);
+    item.add("power", power->numbers.size() == 1 ? text_of(power->numbers[0]) : Text("1"),
+             power->span);
   } else {
     item.add("radiance", "1");
   }
@@ -132,7 +149,8 @@ void Lights::write_point(const Light& light, Text& out) {
   item.add("position", list_of(position.numbers), position.span);
   const Entry* const falloff = light.fields.find(Role::falloff);
   if (power != nullptr) {
-    item.add("power", power->numbers.size() == 1 ? text_of(power->numbers[0]) : Text("1"), power->span);
+    item.add("power", power->numbers.size() == 1 ? text_of(power->numbers[0]) : Text("1"),
+             power->span);
   } else if (falloff != nullptr && falloff->numbers[0].value > 0) {
     Text intensity(inverse_pi_ ? "pi / " : "1 / ");
     item.add("intensity", intensity.put(text_of(falloff->numbers[0])), falloff->span);
@@ -149,7 +167,8 @@ void Lights::write_directional(const Light& light, Text& out) {
   const Entry& direction = light.fields[Role::direction];
   if (const Entry* const position = light.fields.find(Role::position)) {
     context_.warn_once(DiagnosticKind::course_ignored_word, "beam", position->word_span,
-                       "the position, extent and power of a `DirectionalLight` have no effect: it is parallel light everywhere");
+                       "the position, extent and power of a `DirectionalLight` have no effect: it "
+                       "is parallel light everywhere");
   }
   Item item;
   item.head.put("light: directional", light.block.word_span);
@@ -164,11 +183,14 @@ void Lights::write_spot(const Light& light, Text& out) {
   const Entry& angle = light.fields[Role::angle];
   Item item;
   item.head.put("light: spot", light.block.word_span);
-  item.add("position", list_of(light.fields[Role::position].numbers), light.fields[Role::position].span);
-  item.add("direction", list_of(light.fields[Role::direction].numbers), light.fields[Role::direction].span);
+  item.add("position", list_of(light.fields[Role::position].numbers),
+           light.fields[Role::position].span);
+  item.add("direction", list_of(light.fields[Role::direction].numbers),
+           light.fields[Role::direction].span);
   item.add("angle", degrees_of(angle.numbers[0]), angle.span);
   if (const Entry* const power = light.fields.find(Role::power)) {
-    item.add("power", power->numbers.size() == 1 ? text_of(power->numbers[0]) : Text("1"), power->span);
+    item.add("power", power->numbers.size() == 1 ? text_of(power->numbers[0]) : Text("1"),
+             power->span);
   } else {
     item.add("intensity", inverse_pi_ ? "pi" : "1");
     item.add("decay", ".none");
@@ -184,7 +206,8 @@ void Lights::write_skybox(const Light& light, Text& out) {
     if (child.is(grammar::SyntaxKind::course_word) && !file) file = child;
   }
   if (!file) {
-    context_.error(DiagnosticKind::course_missing_word, light.block.word_span, "`Skybox` lacks the name of its image");
+    context_.error(DiagnosticKind::course_missing_word, light.block.word_span,
+                   "`Skybox` lacks the name of its image");
     return;
   }
   const auto path = find_asset(context_, file.text(), file.span());

@@ -14,10 +14,12 @@ namespace scenec::frontend::course {
 namespace {
 
 bool is_zero(const Entry& entry) {
-  return std::all_of(entry.numbers.begin(), entry.numbers.end(), [](const Number& n) { return n.value == 0; });
+  return std::all_of(entry.numbers.begin(), entry.numbers.end(),
+                     [](const Number& n) { return n.value == 0; });
 }
 
-constexpr std::array<std::string_view, 7> lobe_words{"DIFF", "SPEC", "REFR", "GLOS", "METAL", "REFL", "LIGHT"};
+constexpr std::array<std::string_view, 7> lobe_words{"DIFF",  "SPEC", "REFR", "GLOS",
+                                                     "METAL", "REFL", "LIGHT"};
 
 }  // namespace
 
@@ -35,7 +37,8 @@ std::optional<TextureUse> Materials::read_texture(const Entry& entry) {
     if (textures_.empty() || index < 0) return std::nullopt;  // -1, or the flag of one author
     if (index != std::floor(index) || index >= static_cast<double>(textures_.size())) {
       context_.error(DiagnosticKind::course_wrong_values, entry.numbers.front().span,
-                     fmt::format("there is no texture {}; `Textures` has {}", short_number_text(index), textures_.size()));
+                     fmt::format("there is no texture {}; `Textures` has {}",
+                                 short_number_text(index), textures_.size()));
       return std::nullopt;
     }
     return textures_[static_cast<std::size_t>(index)];
@@ -46,8 +49,9 @@ std::optional<TextureUse> Materials::read_texture(const Entry& entry) {
   if (entry.numbers.size() == 2) {
     texture.repeat = entry.numbers;
   } else if (!entry.numbers.empty()) {
-    context_.warn_once(DiagnosticKind::course_ignored_word, "texture numbers", entry.values_span(),
-                       "the numbers that place the texture have no effect: surfaces use their own uv");
+    context_.warn_once(
+        DiagnosticKind::course_ignored_word, "texture numbers", entry.values_span(),
+        "the numbers that place the texture have no effect: surfaces use their own uv");
   }
   return texture;
 }
@@ -89,23 +93,34 @@ void Materials::read_one(const Entry& block) {
   BlockReader reader(context_, block.block, Place::material);
   while (const auto entry = reader.next()) {
     switch (entry->role()) {
-      case Role::texture: material.texture = read_texture(*entry); continue;
-      case Role::normal_map: material.normal_map = read_texture(*entry); continue;
-      case Role::bump: (void)read_texture(*entry); continue;  // unused, yet it must be there
-      case Role::noise: read_noise(material, entry->block); continue;
+      case Role::texture:
+        material.texture = read_texture(*entry);
+        continue;
+      case Role::normal_map:
+        material.normal_map = read_texture(*entry);
+        continue;
+      case Role::bump:
+        (void)read_texture(*entry);
+        continue;  // unused, yet it must be there
+      case Role::noise:
+        read_noise(material, entry->block);
+        continue;
       case Role::lobe:
         if (!entry->name.empty() && !find_lobe(entry->name)) {
           context_.error(DiagnosticKind::course_wrong_values, entry->name_span,
-                         fmt::format("`{}` is no type of material; known are {}", printable(entry->name), quoted_list(lobe_words)));
+                         fmt::format("`{}` is no type of material; known are {}",
+                                     printable(entry->name), quoted_list(lobe_words)));
           continue;
         }
         break;
-      default: break;
+      default:
+        break;
     }
     const auto [found, added] = material.entries.insert_or_assign(entry->role(), *entry);
     if (!added) {
-      context_.warn_once(DiagnosticKind::course_repeated_word, entry->word->text, entry->word_span,
-                         fmt::format("`{}` replaces an earlier value in this material", entry->word->text));
+      context_.warn_once(
+          DiagnosticKind::course_repeated_word, entry->word->text, entry->word_span,
+          fmt::format("`{}` replaces an earlier value in this material", entry->word->text));
     }
   }
   check_required(material);
@@ -124,21 +139,26 @@ void Materials::read_noise(MaterialData& material, grammar::NodeRef block) {
 }
 
 void Materials::check_required(const MaterialData& material) {
-  const bool rough = material.kind == Role::material_glossy || material.kind == Role::material_metal;
+  const bool rough =
+      material.kind == Role::material_glossy || material.kind == Role::material_metal;
   if (rough && material.find(Role::roughness) == nullptr && material.find(Role::alpha) == nullptr) {
     context_.error(DiagnosticKind::course_missing_word, material.word_span,
                    fmt::format("`{}` lacks `roughness`", material.word));
   }
-  if (const Entry* const type = material.find(Role::lobe); type != nullptr && type->numbers.size() == 1) {
+  if (const Entry* const type = material.find(Role::lobe);
+      type != nullptr && type->numbers.size() == 1) {
     const double value = type->numbers.front().value;
     if (value != 0 && value != 1 && value != 2 && value != 3) {
       context_.error(DiagnosticKind::course_wrong_values, type->numbers.front().span,
-                     "this type of material has no reading; known are 0 (diffuse), 1 (mirror), 2 (glass), 3 (light)");
+                     "this type of material has no reading; known are 0 (diffuse), 1 (mirror), 2 "
+                     "(glass), 3 (light)");
     }
   }
 }
 
-std::string Materials::name_of(std::size_t index) const { return fmt::format("m{}", index); }
+std::string Materials::name_of(std::size_t index) const {
+  return fmt::format("m{}", index);
+}
 
 bool Materials::is_emissive(std::size_t index) const {
   if (index >= materials_.size()) return false;

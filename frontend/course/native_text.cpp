@@ -9,7 +9,9 @@ namespace scenec::frontend::course {
 
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 std::size_t skip_digits(std::string_view text, std::size_t at) {
   while (at < text.size() && is_digit(text[at])) ++at;
@@ -54,17 +56,24 @@ Text joined(std::string_view open, const Items& items, std::string_view close, W
   return text;
 }
 
-bool all_equal(double a, double b, double c) { return a == b && b == c; }
+bool all_equal(double a, double b, double c) {
+  return a == b && b == c;
+}
 
 }  // namespace
 
-Text text_of(const Number& number) { return {numeral_of(number), number.span}; }
+Text text_of(const Number& number) {
+  return {numeral_of(number), number.span};
+}
 
-Text text_of_value(double value, Span origin) { return {numeral(value), origin}; }
+Text text_of_value(double value, Span origin) {
+  return {numeral(value), origin};
+}
 
 Text list_of(std::span<const Number> numbers) {
   const std::size_t begin = 0;
-  Text text = joined("[", numbers, "]", [](Text& out, const Number& number) { out.put(text_of(number)); });
+  Text text =
+      joined("[", numbers, "]", [](Text& out, const Number& number) { out.put(text_of(number)); });
   if (!numbers.empty()) text.cover(begin, join(numbers.front().span, numbers.back().span));
   return text;
 }
@@ -86,7 +95,8 @@ Text color_of(std::span<const Number> numbers) {
     text.cover(0, span);
     return text;
   }
-  Text text = joined("rgb(", numbers, ")", [](Text& out, const Number& number) { out.put(text_of(number)); });
+  Text text = joined("rgb(", numbers, ")",
+                     [](Text& out, const Number& number) { out.put(text_of(number)); });
   text.cover(0, span);
   return text;
 }

@@ -40,9 +40,15 @@ void Objects::write_members(const Entry& group, const Target& target) {
   bool phong = true;
   while (const auto entry = reader.next()) {
     switch (entry->role()) {
-      case Role::count: count.state(*entry); break;
-      case Role::material_index: set_material(*entry); break;
-      case Role::obj_material_type: phong = entry->numbers.front().value == 0; break;
+      case Role::count:
+        count.state(*entry);
+        break;
+      case Role::material_index:
+        set_material(*entry);
+        break;
+      case Role::obj_material_type:
+        phong = entry->numbers.front().value == 0;
+        break;
       case Role::obj_file:
         from_file = true;
         write_obj_file(*entry, phong, target);
@@ -75,21 +81,36 @@ void Objects::set_material(const Entry& entry) {
 
 void Objects::write_object(const Entry& entry, const Target& target) {
   switch (entry.role()) {
-    case Role::group: return write_group(entry, target);
-    case Role::transform: return write_transform(entry, target);
-    case Role::sphere: return write_sphere(entry, target);
-    case Role::moving_sphere: return write_sphere(entry, target);
-    case Role::plane: return write_plane(entry, target);
-    case Role::triangle: return write_triangle(entry, target);
-    case Role::mesh: return write_mesh(entry, target);
-    case Role::tiny_obj: return write_tiny_obj(entry, target);
-    case Role::rectangle: return write_rectangle(entry, target);
-    case Role::corners: return write_corners(entry, target);
-    case Role::disc: return write_disc(entry, target);
-    case Role::revolve: return write_revolve(entry, target);
-    case Role::cage: return write_cage(entry, target);
-    case Role::curve: return skip_curve(entry);
-    default: return;
+    case Role::group:
+      return write_group(entry, target);
+    case Role::transform:
+      return write_transform(entry, target);
+    case Role::sphere:
+      return write_sphere(entry, target);
+    case Role::moving_sphere:
+      return write_sphere(entry, target);
+    case Role::plane:
+      return write_plane(entry, target);
+    case Role::triangle:
+      return write_triangle(entry, target);
+    case Role::mesh:
+      return write_mesh(entry, target);
+    case Role::tiny_obj:
+      return write_tiny_obj(entry, target);
+    case Role::rectangle:
+      return write_rectangle(entry, target);
+    case Role::corners:
+      return write_corners(entry, target);
+    case Role::disc:
+      return write_disc(entry, target);
+    case Role::revolve:
+      return write_revolve(entry, target);
+    case Role::cage:
+      return write_cage(entry, target);
+    case Role::curve:
+      return skip_curve(entry);
+    default:
+      return;
   }
 }
 
@@ -109,8 +130,8 @@ void Objects::write_group(const Entry& entry, const Target& target) {
   target.out.put("\n");
 }
 
-// M starts as identity and every operation multiplies on the right (M = M T), so the first listed is
-// applied last; a Matrix4f multiplies on the left (M = T M) and so comes after all of them.
+// M starts as identity and every operation multiplies on the right (M = M T), so the first listed
+// is applied last; a Matrix4f multiplies on the left (M = T M) and so comes after all of them.
 void Objects::write_transform(const Entry& entry, const Target& target) {
   BlockReader reader(context_, entry.block, Place::transform);
   Operations reversed;
@@ -142,12 +163,24 @@ Text Objects::operation_of(const Entry& entry) {
   const std::vector<Number>& n = entry.numbers;
   Text text;
   switch (entry.role()) {
-    case Role::scale: text.put("scale(").put(list_of(n)); break;
-    case Role::uniform_scale: text.put("scale(").put(text_of(n[0])); break;
-    case Role::translate: text.put("move(").put(list_of(n)); break;
-    case Role::rotate_x: text.put("rotate_x(").put(degrees_of(n[0])); break;
-    case Role::rotate_y: text.put("rotate_y(").put(degrees_of(n[0])); break;
-    case Role::rotate_z: text.put("rotate_z(").put(degrees_of(n[0])); break;
+    case Role::scale:
+      text.put("scale(").put(list_of(n));
+      break;
+    case Role::uniform_scale:
+      text.put("scale(").put(text_of(n[0]));
+      break;
+    case Role::translate:
+      text.put("move(").put(list_of(n));
+      break;
+    case Role::rotate_x:
+      text.put("rotate_x(").put(degrees_of(n[0]));
+      break;
+    case Role::rotate_y:
+      text.put("rotate_y(").put(degrees_of(n[0]));
+      break;
+    case Role::rotate_z:
+      text.put("rotate_z(").put(degrees_of(n[0]));
+      break;
     case Role::rotate:
       text.put("rotate(").put(list_of(std::span(n).first(3))).put(", ").put(degrees_of(n[3]));
       break;
@@ -184,7 +217,8 @@ void Objects::add_material(Item& item, const Entry& entry, NeedsMaterial needs) 
   }
 }
 
-void Objects::finish(Item& item, const Entry& entry, const Operations& own, const Target& target, NeedsMaterial needs) {
+void Objects::finish(Item& item, const Entry& entry, const Operations& own, const Target& target,
+                     NeedsMaterial needs) {
   item.origin = join(entry.word_span, entry.block ? entry.block.span() : entry.span);
   add_material(item, entry, needs);
   if (!own.empty() || !target.outer.empty()) {

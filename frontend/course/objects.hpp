@@ -28,8 +28,12 @@ class Objects {
   // One object that glows with a material of its own.
   void write_emitter(const Entry& object, const std::string& material, Text& out);
 
-  [[nodiscard]] const std::vector<EmissiveSphere>& emissive_spheres() const { return emissive_spheres_; }
-  [[nodiscard]] const std::vector<EmissiveTriangle>& emissive_triangles() const { return emissive_triangles_; }
+  [[nodiscard]] const std::vector<EmissiveSphere>& emissive_spheres() const {
+    return emissive_spheres_;
+  }
+  [[nodiscard]] const std::vector<EmissiveTriangle>& emissive_triangles() const {
+    return emissive_triangles_;
+  }
 
  private:
   struct Target {
@@ -59,16 +63,17 @@ class Objects {
   // Material and transform, then the item itself. A material is needed by the original reader for
   // some shapes only.
   enum class NeedsMaterial : std::uint8_t { no, yes };
-  void finish(Item& item, const Entry& entry, const Operations& own, const Target& target, NeedsMaterial needs);
+  void finish(Item& item, const Entry& entry, const Operations& own, const Target& target,
+              NeedsMaterial needs);
   void add_material(Item& item, const Entry& entry, NeedsMaterial needs);
 
   Context& context_;
   Materials& materials_;
-  std::optional<std::size_t> material_;   // index into the materials
+  std::optional<std::size_t> material_;  // index into the materials
   Span material_span_;
-  bool material_stated_ = false;          // a MaterialIndex was read, even one with a mistake
-  std::string variant_;                   // replaces the material of the next item
-  std::string emitter_;                   // replaces every material
+  bool material_stated_ = false;  // a MaterialIndex was read, even one with a mistake
+  std::string variant_;           // replaces the material of the next item
+  std::string emitter_;           // replaces every material
   std::vector<EmissiveSphere> emissive_spheres_;
   std::vector<EmissiveTriangle> emissive_triangles_;
 };
@@ -96,6 +101,7 @@ class Fields {
 // The profile of a RevSurface, or nullopt (reported).
 [[nodiscard]] std::optional<Text> read_profile(Context& context, const Entry& profile);
 // The control points of a curve: three numbers each, or two.
-[[nodiscard]] std::optional<std::vector<std::vector<Number>>> read_controls(Context& context, const Entry& curve);
+[[nodiscard]] std::optional<std::vector<std::vector<Number>>> read_controls(Context& context,
+                                                                            const Entry& curve);
 
 }  // namespace scenec::frontend::course

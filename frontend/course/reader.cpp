@@ -31,7 +31,8 @@ bool is_slip(std::string_view word, std::string_view name) {
   std::size_t front = 0;
   while (front < shorter && word[front] == name[front]) ++front;
   std::size_t back = 0;
-  while (back < shorter - front && word[word.size() - 1 - back] == name[name.size() - 1 - back]) ++back;
+  while (back < shorter - front && word[word.size() - 1 - back] == name[name.size() - 1 - back])
+    ++back;
   return front + back + 2 >= std::max(word.size(), name.size());
 }
 
@@ -51,30 +52,6 @@ std::string found_text(const Entry& entry) {
 }
 
 }  // namespace
-
-std::optional<Number> number_of(NodeRef node) {
-  if (!node.is(SyntaxKind::course_number)) return std::nullopt;
-  std::string_view text = node.text();
-  const Span span = node.span();
-  std::string_view digits = text;
-  if (digits.starts_with('+')) digits.remove_prefix(1);
-  std::optional<double> value = parse_double(digits);
-  if (!value && digits.ends_with('.')) value = parse_double(digits.substr(0, digits.size() - 1));
-  if (!value) {
-    // `.5`, `-.5`, `1.e3`: forms of the course's scanf that the numerals of the language lack.
-    std::string padded;
-    for (std::size_t i = 0; i < digits.size(); ++i) {
-      const bool digit_before = i > 0 && digits[i - 1] >= '0' && digits[i - 1] <= '9';
-      const bool digit_behind = i + 1 < digits.size() && digits[i + 1] >= '0' && digits[i + 1] <= '9';
-      if (digits[i] == '.' && !digit_before) padded += '0';
-      padded += digits[i];
-      if (digits[i] == '.' && !digit_behind) padded += '0';
-    }
-    value = parse_double(padded);
-  }
-  if (!value) return std::nullopt;
-  return Number{*value, span, text};
-}
 
 Span Entry::values_span() const {
   if (!numbers.empty()) return join(numbers.front().span, numbers.back().span);
@@ -112,8 +89,9 @@ std::optional<Entry> BlockReader::next() {
 
 void BlockReader::skip_stray() {
   const NodeRef first = elements_[at_];
-  Span span = first.is(SyntaxKind::course_block) ? Span{first.span().file, first.span().begin, first.span().begin + 1}
-                                                 : first.span();
+  Span span = first.is(SyntaxKind::course_block)
+                  ? Span{first.span().file, first.span().begin, first.span().begin + 1}
+                  : first.span();
   while (at_ < elements_.size() && !at(SyntaxKind::course_word)) {
     if (!at(SyntaxKind::course_block)) span = join(span, elements_[at_].span());
     ++at_;
@@ -185,8 +163,9 @@ void BlockReader::read_numbers(std::vector<Number>& numbers) {
     if (const auto number = number_of(elements_[at_])) {
       numbers.push_back(*number);
     } else {
-      context_.error(DiagnosticKind::course_wrong_values, elements_[at_].span(),
-                     fmt::format("`{}` is no number that can be stored", printable(elements_[at_].text())));
+      context_.error(
+          DiagnosticKind::course_wrong_values, elements_[at_].span(),
+          fmt::format("`{}` is no number that can be stored", printable(elements_[at_].text())));
       numbers.push_back({0, elements_[at_].span(), "0"});
     }
     ++at_;
@@ -261,11 +240,16 @@ bool BlockReader::read_values(Entry& entry) {
   }
   read_numbers(entry.numbers);
   switch (entry.numbers.size()) {
-    case 0: return allows(values, Values::flag);
-    case 1: return allows(values, Values::number);
-    case 2: return allows(values, Values::vec2);
-    case 3: return allows(values, Values::vec3);
-    default: return false;
+    case 0:
+      return allows(values, Values::flag);
+    case 1:
+      return allows(values, Values::number);
+    case 2:
+      return allows(values, Values::vec2);
+    case 3:
+      return allows(values, Values::vec3);
+    default:
+      return false;
   }
 }
 
@@ -274,16 +258,17 @@ void BlockReader::report_wrong_values(Entry& entry) {
   if (at(SyntaxKind::course_word) && find_word(place_, elements_[at_].text()) == nullptr) {
     const NodeRef culprit = elements_[at_];
     skip_unknown_values();
-    context_.error(DiagnosticKind::course_wrong_values, culprit.span(),
-                   fmt::format("`{}` stands in the values of `{}`, which takes {}", printable(culprit.text()),
-                               entry.word->text, text_of(entry.word->values)));
+    context_.error(
+        DiagnosticKind::course_wrong_values, culprit.span(),
+        fmt::format("`{}` stands in the values of `{}`, which takes {}", printable(culprit.text()),
+                    entry.word->text, text_of(entry.word->values)));
     return;
   }
   Span where = entry.numbers.empty() ? entry.word_span : entry.values_span();
   if (!where.valid()) where = entry.word_span;
   context_.error(DiagnosticKind::course_wrong_values, where,
-                 fmt::format("`{}` is followed by {}; it takes {}", entry.word->text, found_text(entry),
-                             text_of(entry.word->values)));
+                 fmt::format("`{}` is followed by {}; it takes {}", entry.word->text,
+                             found_text(entry), text_of(entry.word->values)));
 }
 
 void BlockReader::note_use(const Entry& entry) {
@@ -291,7 +276,8 @@ void BlockReader::note_use(const Entry& entry) {
   context_.vocabulary = std::max(context_.vocabulary, word.vocabulary);
   if (word.treat == Treat::chosen) {
     context_.warn_once(DiagnosticKind::course_chosen_reading, word.text, entry.word_span,
-                       fmt::format("`{}` has several readings; read as: {}", word.text, reading_for(word, form_of(entry))));
+                       fmt::format("`{}` has several readings; read as: {}", word.text,
+                                   reading_for(word, form_of(entry))));
   } else if (word.treat == Treat::ignored) {
     context_.warn_once(DiagnosticKind::course_ignored_word, word.text, entry.word_span,
                        fmt::format("`{}` has no effect: {}", word.text, word.reading));

@@ -23,13 +23,13 @@ struct Number {
 struct Entry {
   const Word* word = nullptr;
   Span word_span;
-  Span span;                     // word and values, without a block
-  std::vector<Number> numbers;   // behind the word, or behind its name, or in its braces
-  std::string_view name;         // file, word, or the word of an object
+  Span span;                    // word and values, without a block
+  std::vector<Number> numbers;  // behind the word, or behind its name, or in its braces
+  std::string_view name;        // file, word, or the word of an object
   Span name_span;
-  grammar::NodeRef block;        // of a block or an object
+  grammar::NodeRef block;                   // of a block or an object
   std::vector<std::vector<Number>> points;  // one a bracket
-  bool usable = false;           // false: its values were wrong, and it was reported
+  bool usable = false;                      // false: its values were wrong, and it was reported
 
   [[nodiscard]] Role role() const { return word->role; }
   [[nodiscard]] Span values_span() const;

@@ -11,11 +11,13 @@ namespace scenec::frontend::course {
 
 namespace {
 
-// Normals such as 0.6 0.8 0 have the length 1 up to the rounding of three products, their sum and the
-// root; what is farther off was not written as a unit vector.
+// Normals such as 0.6 0.8 0 have the length 1 up to the rounding of three products, their sum and
+// the root; what is farther off was not written as a unit vector.
 constexpr double unit_length_slack = 0x1p-50;
 
-bool is_zero(const std::array<double, 3>& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+bool is_zero(const std::array<double, 3>& v) {
+  return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
 
 }  // namespace
 
@@ -34,7 +36,8 @@ void Objects::write_sphere(const Entry& entry, const Target& target) {
   if (const Entry* const theta = fields.find(Role::theta)) {
     Text angle = text_of_value(-theta->numbers[0].value, theta->values_span());
     own.push_back(Text("rotate_y(").put(angle).put("rad)"));
-    if (!is_zero(vector_of(center))) own.push_back(Text("move(").put(list_of(center.numbers)).put(")"));
+    if (!is_zero(vector_of(center)))
+      own.push_back(Text("move(").put(list_of(center.numbers)).put(")"));
   } else {
     item.add("center", list_of(center.numbers), center.span);
   }
@@ -58,26 +61,30 @@ void Objects::write_plane(const Entry& entry, const Target& target) {
   } else {
     item.add("offset", text_of_value(raw / length, offset.values_span()), offset.span);
     context_.error(DiagnosticKind::course_plane_normal, normal.values_span(),
-                   fmt::format("the normal has the length {}; the plane lies {} from the origin", short_number_text(length),
-                               short_number_text(raw / length)));
+                   fmt::format("the normal has the length {}; the plane lies {} from the origin",
+                               short_number_text(length), short_number_text(raw / length)));
   }
   if (const Entry* const texture = fields.find(Role::texture); texture != nullptr && material_) {
-    if (auto use = materials_.read_texture(*texture)) variant_ = materials_.add_variant(*material_, std::move(*use));
+    if (auto use = materials_.read_texture(*texture))
+      variant_ = materials_.add_variant(*material_, std::move(*use));
   }
   finish(item, entry, {}, target, NeedsMaterial::yes);
 }
 
 void Objects::write_triangle(const Entry& entry, const Target& target) {
-  const Fields fields(context_, entry, Place::triangle, {Role::vertex0, Role::vertex1, Role::vertex2});
+  const Fields fields(context_, entry, Place::triangle,
+                      {Role::vertex0, Role::vertex1, Role::vertex2});
   if (!fields.complete()) return;
   const std::array corners{&fields[Role::vertex0], &fields[Role::vertex1], &fields[Role::vertex2]};
   if (target.outer.empty() && material_ && emitter_.empty() && materials_.is_emissive(*material_)) {
-    emissive_triangles_.push_back({vector_of(*corners[0]), vector_of(*corners[1]), vector_of(*corners[2])});
+    emissive_triangles_.push_back(
+        {vector_of(*corners[0]), vector_of(*corners[1]), vector_of(*corners[2])});
   }
   Item item;
   item.head.put("triangle", entry.word_span);
   Text vertices("[");
-  for (std::size_t i = 0; i < corners.size(); ++i) vertices.put(i == 0 ? "" : ", ").put(list_of(corners[i]->numbers));
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    vertices.put(i == 0 ? "" : ", ").put(list_of(corners[i]->numbers));
   item.add("vertices", vertices.put("]"));
   finish(item, entry, {}, target, NeedsMaterial::yes);
 }
@@ -90,7 +97,8 @@ void Objects::write_mesh(const Entry& entry, const Target& target) {
   if (!path) return;
   if (!file.numbers.empty() && file.numbers.size() != 4) {
     context_.error(DiagnosticKind::course_wrong_values, file.values_span(),
-                   fmt::format("`obj_file` is followed by {} numbers; it takes none or 4", file.numbers.size()));
+                   fmt::format("`obj_file` is followed by {} numbers; it takes none or 4",
+                               file.numbers.size()));
     return;
   }
   Item item;
@@ -124,7 +132,8 @@ void Objects::write_tiny_obj(const Entry& entry, const Target& target) {
     }
   }
   if (!file) {
-    context_.error(DiagnosticKind::course_missing_word, entry.word_span, "`TinyObj` lacks the name of its file");
+    context_.error(DiagnosticKind::course_missing_word, entry.word_span,
+                   "`TinyObj` lacks the name of its file");
     return;
   }
   const auto path = find_asset(context_, file.text(), file.span());
@@ -151,7 +160,8 @@ void Objects::write_obj_file(const Entry& file, bool phong, const Target& target
 }
 
 void Objects::write_rectangle(const Entry& entry, const Target& target) {
-  const Fields fields(context_, entry, Place::rectangle, {Role::position, Role::edge_u, Role::edge_v});
+  const Fields fields(context_, entry, Place::rectangle,
+                      {Role::position, Role::edge_u, Role::edge_v});
   if (!fields.complete()) return;
   Item item;
   item.head.put("quad", entry.word_span);
@@ -194,7 +204,8 @@ void Objects::write_corners(const Entry& entry, const Target& target) {
 }
 
 void Objects::write_disc(const Entry& entry, const Target& target) {
-  const Fields fields(context_, entry, Place::disc, {Role::position, Role::direction, Role::radius});
+  const Fields fields(context_, entry, Place::disc,
+                      {Role::position, Role::direction, Role::radius});
   if (!fields.complete()) return;
   Item item;
   item.head.put("disk", entry.word_span);

@@ -17,7 +17,9 @@ namespace scenec::frontend::course {
 namespace {
 
 // A whole number of pixels, also where the file says `200.0`.
-Text pixels_of(const Entry& entry) { return text_of_value(entry.numbers.front().value, entry.values_span()); }
+Text pixels_of(const Entry& entry) {
+  return text_of_value(entry.numbers.front().value, entry.values_span());
+}
 
 struct CameraTexts {
   Item item;
@@ -27,7 +29,8 @@ struct CameraTexts {
 // The radius of the lens, where the camera has one.
 std::optional<Text> aperture_of(const Fields& fields) {
   if (fields.value(Role::has_lens, 1) == 0) return std::nullopt;
-  if (const Entry* const radius = fields.find(Role::aperture); radius != nullptr && radius->numbers[0].value != 0) {
+  if (const Entry* const radius = fields.find(Role::aperture);
+      radius != nullptr && radius->numbers[0].value != 0) {
     return text_of(radius->numbers[0]);
   }
   if (const Entry* const diameter = fields.find(Role::lens_diameter)) {
@@ -41,25 +44,29 @@ std::optional<Text> aperture_of(const Fields& fields) {
 }
 
 CameraTexts read_camera(Context& context, const Entry& block) {
-  const Fields fields(context, block, Place::camera,
-                      {Role::position, Role::direction, Role::up, Role::angle, Role::width, Role::height});
+  const Fields fields(
+      context, block, Place::camera,
+      {Role::position, Role::direction, Role::up, Role::angle, Role::width, Role::height});
   CameraTexts camera;
   camera.item.origin = join(block.word_span, block.block.span());
   const Entry* const focus = fields.find(Role::focus);
   std::optional<Text> aperture = aperture_of(fields);
   if (aperture && focus == nullptr) {
-    context.warn_once(DiagnosticKind::course_ignored_word, "aperture without focus", block.word_span,
+    context.warn_once(DiagnosticKind::course_ignored_word, "aperture without focus",
+                      block.word_span,
                       "the lens has no effect: the camera has no `focus` distance");
     aperture.reset();
   }
   camera.item.head.put("camera main: ").put(aperture ? "thin_lens" : "pinhole", block.word_span);
   const auto add = [&](std::string_view key, Role role) {
-    if (const Entry* const entry = fields.find(role)) camera.item.add(key, list_of(entry->numbers), entry->span);
+    if (const Entry* const entry = fields.find(role))
+      camera.item.add(key, list_of(entry->numbers), entry->span);
   };
   add("eye", Role::position);
   add("direction", Role::direction);
   add("up", Role::up);
-  if (const Entry* const angle = fields.find(Role::angle)) camera.item.add("fov", degrees_of(angle->numbers[0]), angle->span);
+  if (const Entry* const angle = fields.find(Role::angle))
+    camera.item.add("fov", degrees_of(angle->numbers[0]), angle->span);
   if (aperture) {
     camera.item.add("aperture", std::move(*aperture));
     camera.item.add("focus", text_of(focus->numbers[0]), focus->span);
@@ -90,11 +97,14 @@ Settings read_model(Context& context, const Entry& block) {
       settings.method = ir::Method::path;
     } else {
       context.error(DiagnosticKind::course_wrong_values, tracing->name_span,
-                    fmt::format("`{}` is no way of tracing; known are `Whitted` and `Monte-Carlo`", printable(tracing->name)));
+                    fmt::format("`{}` is no way of tracing; known are `Whitted` and `Monte-Carlo`",
+                                printable(tracing->name)));
     }
   }
-  if (const Entry* const samples = fields.find(Role::samples)) settings.samples = pixels_of(*samples);
-  if (const Entry* const background = fields.find(Role::background)) settings.background = *background;
+  if (const Entry* const samples = fields.find(Role::samples))
+    settings.samples = pixels_of(*samples);
+  if (const Entry* const background = fields.find(Role::background))
+    settings.background = *background;
   return settings;
 }
 
@@ -102,7 +112,11 @@ Settings read_model(Context& context, const Entry& block) {
 class Translator {
  public:
   Translator(const grammar::SyntaxTree& tree, Context& context)
-      : tree_(tree), context_(context), materials_(context), objects_(context, materials_), lights_(context, materials_, objects_) {}
+      : tree_(tree),
+        context_(context),
+        materials_(context),
+        objects_(context, materials_),
+        lights_(context, materials_, objects_) {}
 
   Translation translate() {
     collect_blocks();
@@ -119,9 +133,10 @@ class Translator {
       if (role == Role::ignored_block) continue;
       const auto found = blocks_.find(role);
       if (found != blocks_.end()) {
-        context_.sink.report(Diagnostic(DiagnosticKind::course_repeated_word, entry->word_span,
-                                        fmt::format("`{}` replaces an earlier block", entry->word->text))
-                                 .note("the earlier block", found->second.word_span));
+        context_.sink.report(
+            Diagnostic(DiagnosticKind::course_repeated_word, entry->word_span,
+                       fmt::format("`{}` replaces an earlier block", entry->word->text))
+                .note("the earlier block", found->second.word_span));
       }
       blocks_.insert_or_assign(role, std::move(*entry));
     }
@@ -138,13 +153,15 @@ class Translator {
     const Entry* const group = find(Role::group);
     const Entry* const materials = find(Role::materials);
     // The original resolves indices while it reads: materials behind the group come too late.
-    const bool in_time = materials != nullptr && (group == nullptr || materials->word_span.begin < group->word_span.begin);
+    const bool in_time = materials != nullptr &&
+                         (group == nullptr || materials->word_span.begin < group->word_span.begin);
     if (materials != nullptr && in_time) materials_.read(*materials);
     read_camera_block();
     if (const Entry* const model = find(Role::model)) settings_ = read_model(context_, *model);
     read_background();
     if (const Entry* const lights = find(Role::lights)) lights_.read(*lights, Place::lights);
-    if (const Entry* const disks = find(Role::disk_lights)) lights_.read(*disks, Place::disk_lights);
+    if (const Entry* const disks = find(Role::disk_lights))
+      lights_.read(*disks, Place::disk_lights);
     if (group != nullptr) {
       objects_.write_scene(*group, objects_text_);
     } else {
@@ -155,7 +172,8 @@ class Translator {
 
   void missing_block(std::string_view word) {
     if (had_mistakes_) return;
-    context_.error(DiagnosticKind::course_missing_block, {tree_.file(), 0, 0}, fmt::format("the scene has no `{}`", word));
+    context_.error(DiagnosticKind::course_missing_block, {tree_.file(), 0, 0},
+                   fmt::format("the scene has no `{}`", word));
   }
 
   void read_camera_block() {
@@ -179,18 +197,24 @@ class Translator {
     if (context_.options.method) return *context_.options.method;
     if (settings_.method) return *settings_.method;
     switch (context_.vocabulary) {
-      case Vocabulary::path: return ir::Method::path;
-      case Vocabulary::whitted: return ir::Method::whitted;
-      default: return ir::Method::phong;
+      case Vocabulary::path:
+        return ir::Method::path;
+      case Vocabulary::whitted:
+        return ir::Method::whitted;
+      default:
+        return ir::Method::phong;
     }
   }
 
   [[nodiscard]] Item render_item(ir::Method method) const {
-    const bool by_the_book = method == ir::Method::phong && context_.vocabulary == Vocabulary::base && !context_.options.method;
+    const bool by_the_book = method == ir::Method::phong &&
+                             context_.vocabulary == Vocabulary::base && !context_.options.method;
     Item render;
     render.head.put("render");
     if (camera_ && camera_->size) render.add("size", *camera_->size);
-    render.add("method", Text("." + std::string(ir::EnumNames<ir::Method>::names[static_cast<std::size_t>(method)])));
+    render.add("method",
+               Text("." + std::string(
+                              ir::EnumNames<ir::Method>::names[static_cast<std::size_t>(method)])));
     if (by_the_book) render.add("film", ".course");
     if (settings_.samples) render.add("samples", *settings_.samples);
     render.add("background", background_);
@@ -234,7 +258,8 @@ class Translator {
 
 }  // namespace
 
-Translation translate(const grammar::SyntaxTree& course, const TranslateOptions& options, FileSystem& files, DiagnosticSink& sink) {
+Translation translate(const grammar::SyntaxTree& course, const TranslateOptions& options,
+                      FileSystem& files, DiagnosticSink& sink) {
   Context context{options, files, sink, Vocabulary::base, {}};
   return Translator(course, context).translate();
 }

@@ -21,14 +21,15 @@ struct Translation {
 };
 
 struct TranslateOptions {
-  std::string scene_path;                  // of the course file, for resolving assets
-  std::string output_directory;            // paths in the text are written relative to it
-  std::optional<ir::Method> method;        // none: by vocabulary
+  std::string scene_path;            // of the course file, for resolving assets
+  std::string output_directory;      // paths in the text are written relative to it
+  std::optional<ir::Method> method;  // none: by vocabulary
 };
 
 // Words without a reading, wrong arities and counts are reported; the translation goes on with what
 // it understood, so several mistakes show in one run.
-[[nodiscard]] Translation translate(const grammar::SyntaxTree& course, const TranslateOptions& options, FileSystem& files,
+[[nodiscard]] Translation translate(const grammar::SyntaxTree& course,
+                                    const TranslateOptions& options, FileSystem& files,
                                     DiagnosticSink& sink);
 
 // The table of words and readings as Markdown, generated into docs/course-dialect.md.

@@ -23,23 +23,24 @@ constexpr std::array words = [] {
   using enum Values;
   return std::array{
 // `Place::x` and the like: the rows name enumerators, some of which several enumerations share.
-#define SCENEC_COURSE_WORD(place, text, role, values, vocabulary, treat, reading, found)   \
-  make_word(Place::place, text, Role::role, values, Vocabulary::vocabulary, Treat::treat, \
-            reading, found),
+#define SCENEC_COURSE_WORD(place, text, role, values, vocabulary, treat, reading, found)           \
+  make_word(Place::place, text, Role::role, values, Vocabulary::vocabulary, Treat::treat, reading, \
+            found),
 #include "frontend/course/words.def"
 #undef SCENEC_COURSE_WORD
   };
 }();
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> reading_forms{{
-    {"flag: ", "alone"}, {"number: ", "a number"}, {"vec3: ", "3 numbers"}, {"word: ", "a word"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> reading_forms{
+    {{"flag: ", "alone"}, {"number: ", "a number"}, {"vec3: ", "3 numbers"}, {"word: ", "a word"}}};
 
 using PlaceIndex = std::unordered_map<std::string_view, const Word*>;
 
 const std::array<PlaceIndex, place_count>& index_of_words() {
   static const std::array<PlaceIndex, place_count> index = [] {
     std::array<PlaceIndex, place_count> made;
-    for (const Word& word : words) made[static_cast<std::size_t>(word.place)].emplace(word.text, &word);
+    for (const Word& word : words)
+      made[static_cast<std::size_t>(word.place)].emplace(word.text, &word);
     return made;
   }();
   return index;
@@ -72,10 +73,10 @@ bool is_object(const Word& word) {
 
 std::string_view name_of(Place place) {
   static constexpr std::array<std::string_view, place_count> names{
-      "a scene", "a camera", "`Model`", "`Background`", "`Lights`", "`DiskLights`", "a light",
-      "`Materials`", "a material", "`Noise`", "`Textures`", "a group", "a sphere", "a moving sphere",
-      "a plane", "a triangle", "a mesh", "`Rectangle`", "a box", "`Disc`", "`FFDCage`",
-      "`RevSurface`", "a curve", "`Transform`"};
+      "a scene",  "a camera",        "`Model`",    "`Background`", "`Lights`",   "`DiskLights`",
+      "a light",  "`Materials`",     "a material", "`Noise`",      "`Textures`", "a group",
+      "a sphere", "a moving sphere", "a plane",    "a triangle",   "a mesh",     "`Rectangle`",
+      "a box",    "`Disc`",          "`FFDCage`",  "`RevSurface`", "a curve",    "`Transform`"};
   return names[static_cast<std::size_t>(place)];
 }
 
@@ -101,7 +102,9 @@ std::string text_of(Values set) {
   return text;
 }
 
-std::span<const Word> all_words() { return words; }
+std::span<const Word> all_words() {
+  return words;
+}
 
 const Word* find_word(Place place, std::string_view text) {
   const PlaceIndex& own = index_of_words()[static_cast<std::size_t>(place)];
@@ -124,19 +127,25 @@ std::vector<std::string_view> words_of(Place place) {
 std::string_view reading_for(const Word& word, Values form) {
   std::string_view rest = word.reading;
   if (rest.find('|') == std::string_view::npos) return rest;
-  const auto wanted = form == Values::flag ? 0u : form == Values::number ? 1u : form == Values::vec3 ? 2u : 3u;
+  const auto wanted = form == Values::flag     ? 0u
+                      : form == Values::number ? 1u
+                      : form == Values::vec3   ? 2u
+                                               : 3u;
   while (!rest.empty()) {
     const std::size_t bar = std::min(rest.find('|'), rest.size());
     const std::string_view part = rest.substr(0, bar);
-    if (part.starts_with(reading_forms[wanted].first)) return part.substr(reading_forms[wanted].first.size());
+    if (part.starts_with(reading_forms[wanted].first))
+      return part.substr(reading_forms[wanted].first.size());
     rest.remove_prefix(std::min(bar + 1, rest.size()));
   }
   return word.reading;
 }
 
 std::string words_markdown() {
-  static constexpr std::array<std::string_view, 4> vocabularies{"base", "extension", "Whitted", "path"};
-  static constexpr std::array<std::string_view, 3> treats{"", "chosen reading (warned): ", "not used (warned): "};
+  static constexpr std::array<std::string_view, 4> vocabularies{"base", "extension", "Whitted",
+                                                                "path"};
+  static constexpr std::array<std::string_view, 3> treats{
+      "", "chosen reading (warned): ", "not used (warned): "};
   std::string text;
   for (std::size_t i = 0; i < place_count; ++i) {
     const auto place = static_cast<Place>(i);

@@ -30,7 +30,9 @@ void Item::add(std::string_view key, Text value, Span origin_of_field) {
   fields.push_back(std::move(field));
 }
 
-void write_indent(Text& out, std::size_t indent) { out.put(std::string(2 * indent, ' ')); }
+void write_indent(Text& out, std::size_t indent) {
+  out.put(std::string(2 * indent, ' '));
+}
 
 void write_item(Text& out, const Item& item, std::size_t indent) {
   std::size_t width = 2 * indent + item.head.size() + 4;

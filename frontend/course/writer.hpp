@@ -14,8 +14,8 @@ namespace scenec::frontend::course {
 class Text {
  public:
   Text() = default;
-  Text(std::string_view text) : text_(text) {}  // NOLINT: a text without origin
-  Text(const char* text) : text_(text) {}       // NOLINT
+  Text(std::string_view text) : text_(text) {}    // NOLINT: a text without origin
+  Text(const char* text) : text_(text) {}         // NOLINT
   Text(const std::string& text) : text_(text) {}  // NOLINT
   Text(std::string_view text, Span origin) { put(text, origin); }
 
