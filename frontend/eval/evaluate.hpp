@@ -38,8 +38,9 @@ class Evaluator {
 
   // The declaration a use refers to; nullptr (reported) when there is none.
   Scope::Found resolve(grammar::NodeRef name, Scope& scope);
-  // `ns` of `ns.name`: the scope of an included file, or nullptr when the name is no namespace.
-  [[nodiscard]] Scope* name_space(grammar::NodeRef name, Scope& scope);
+  // `ns` of `ns.name`: the scope of an included file, nullptr when that could not be read (reported);
+  // nullopt when the name is no namespace.
+  [[nodiscard]] std::optional<Scope*> name_space(grammar::NodeRef name, Scope& scope);
   Scope::Found resolve_in(Scope& name_space, grammar::NodeRef space, grammar::NodeRef name);
   // Whether a function or macro is being run already; a call from inside is recursion.
   [[nodiscard]] bool is_active(grammar::NodeRef declaration) const;

@@ -79,9 +79,9 @@ Scope::Found Evaluator::resolve(NodeRef name, Scope& scope) {
   return found;
 }
 
-Scope* Evaluator::name_space(NodeRef name, Scope& scope) {
+std::optional<Scope*> Evaluator::name_space(NodeRef name, Scope& scope) {
   const Scope::Found found = scope.find(name.text(), name.span());
-  if (found.binding == nullptr || found.binding->kind != BindingKind::name_space) return nullptr;
+  if (found.binding == nullptr || found.binding->kind != BindingKind::name_space) return std::nullopt;
   found.binding->used = true;
   return found.scope->name_space(found.binding->name).get();
 }
@@ -141,10 +141,10 @@ Value Evaluator::postfix(NodeRef node, Scope& scope) {
   if (base.is(SyntaxKind::name_ref) && first.is(SyntaxKind::call)) {
     value = call(first, base, scope);
     --left;
-  } else if (Scope* space = base.is(SyntaxKind::name_ref) && first.is(SyntaxKind::member) ? name_space(base, scope) : nullptr) {
+  } else if (const auto space = base.is(SyntaxKind::name_ref) && first.is(SyntaxKind::member) ? name_space(base, scope) : std::nullopt) {
     const NodeRef name = first.find_child(SyntaxKind::name);
-    if (!name) return {};
-    const Scope::Found found = resolve_in(*space, base, name);
+    if (!name || *space == nullptr) return {};
+    const Scope::Found found = resolve_in(**space, base, name);
     if (found.binding == nullptr) return {};
     found.binding->used = true;
     --left;

@@ -1,0 +1,162 @@
+// Declarations: what gives a name to a value, a function, a material, a proto or an included file.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "frontend/lower/lowering_access.hpp"
+#include "frontend/lower/modules.hpp"
+
+namespace scenec::frontend {
+
+using grammar::SyntaxKind;
+
+namespace {
+
+bool hides_built_in(std::string_view name) {
+  constexpr auto filters = ir::EnumNames<ir::FilterKind>::names;  // of use in one place only
+  if (std::find(filters.begin(), filters.end(), name) != filters.end()) return false;
+  return find_constant(name).has_value() || find_builtin(name) != nullptr;
+}
+
+}  // namespace
+
+void Lowering::declare(Scope& scope, NodeRef name, BindingKind kind, Value value, NodeRef node) {
+  const std::string_view word = name.text();
+  if (const Binding* first = scope.find_here(word)) {
+    session_.error(Diagnostic(DiagnosticKind::duplicate_name, name.span(), fmt::format("`{}` is declared twice", printable(word)))
+                       .note("first declared here", first->span));
+    return;
+  }
+  if (!running()) {
+    const Binding* outer = scope.parent() != nullptr ? scope.parent()->find(word, name.span()).binding : nullptr;
+    Diagnostic diagnostic(DiagnosticKind::shadowed_name, name.span(),
+                          outer != nullptr ? fmt::format("`{}` hides an outer {}", printable(word), text_of(outer->kind))
+                                           : fmt::format("`{}` hides a built-in name", printable(word)));
+    if (outer != nullptr) diagnostic.notes.push_back({"the outer one is declared here", outer->span});
+    if (outer != nullptr || hides_built_in(word)) session_.lint(std::move(diagnostic));
+  }
+  Binding binding{.name = word, .span = name.span(), .kind = kind, .value = std::move(value), .node = node};
+  binding.lint_unused = !session_.is_allowed(DiagnosticKind::unused_declaration);
+  scope.add(std::move(binding));
+}
+
+void Lowering::close(Scope& scope) {
+  if (running()) return;
+  for (const Binding& binding : scope.bindings()) {
+    if (binding.used || !binding.lint_unused) continue;
+    session_.lint(Diagnostic(DiagnosticKind::unused_declaration, binding.span,
+                             fmt::format("the {} `{}` is never used", text_of(binding.kind), printable(binding.name))));
+  }
+}
+
+void Lowering::declare_let(NodeRef node, Scope& scope) {
+  const ast::Item parts = ast::item_of(node);
+  const Value found = evaluator_.evaluate(parts.expression, scope);
+  if (!parts.name) return;
+  Value value;
+  if (parts.expression) {
+    const Need need{.subject = parts.name.text(), .function = {}, .node = parts.expression};
+    const auto type = parts.type ? read_type(session_, parts.type) : std::nullopt;
+    if (type) {
+      value = coerce(session_, found, *type, need);
+    } else if (!parts.type) {
+      value = coerce_named(session_, found, need);
+    }
+  }
+  value.literal_zero = false;
+  declare(scope, parts.name, BindingKind::let, std::move(value), node);
+}
+
+// ---- parameters
+
+std::optional<Value> Lowering::param_setting(std::string_view name, const TypeRef& type) {
+  const auto& settings = session_.options.params;
+  const auto setting = std::find_if(settings.rbegin(), settings.rend(), [&](const ParamSetting& s) { return s.name == name; });
+  if (setting == settings.rend()) return std::nullopt;
+  if (type.type == Type::string && type.list_depth == 0) return make_string(setting->value, main_file_);
+  const NodeRef expression = modules_->parse_setting(*setting);
+  if (!expression) return Value{};
+  Scope nothing;
+  const Need need{.subject = name, .function = {}, .node = expression};
+  return coerce(session_, evaluator_.evaluate(expression, nothing), type, need);
+}
+
+void Lowering::declare_param(NodeRef node, Scope& scope) {
+  if (scope.parent() != nullptr) return misplaced(node, "inside a block");
+  const ast::Item parts = ast::item_of(node);
+  if (!parts.name) return;
+  const auto type = read_type(session_, parts.type);
+  Value value = evaluator_.evaluate(parts.expression, scope);
+  if (parts.expression && type) {
+    value = coerce(session_, value, *type, {.subject = parts.name.text(), .function = {}, .node = parts.expression});
+    value = evaluator_.in_range(value, parts.range, scope, parts.name.text(), parts.expression.span());
+  }
+  const bool settable = main_file_ == node.span().file && !session_.checking_only();
+  if (type && settable) {
+    if (auto given = param_setting(parts.name.text(), *type)) {
+      const NodeRef written = modules_->setting_expression(parts.name.text());
+      value = evaluator_.in_range(*given, parts.range, scope, parts.name.text(), written ? written.span() : parts.name.span());
+    }
+  }
+  declare(scope, parts.name, BindingKind::param, std::move(value), node);
+}
+
+void Lowering::report_unknown_settings(Scope& scope) {
+  std::vector<std::string_view> names;
+  for (const Binding& binding : scope.bindings()) {
+    if (binding.kind == BindingKind::param) names.push_back(binding.name);
+  }
+  for (const ParamSetting& setting : session_.options.params) {
+    if (std::find(names.begin(), names.end(), setting.name) != names.end()) continue;
+    session_.report(unknown_word(DiagnosticKind::unknown_param, {}, fmt::format("the scene has no param `{}`", printable(setting.name)),
+                                 setting.name, names, "params"));
+  }
+}
+
+// ---- functions, macros, protos, included files
+
+void Lowering::declare_function(NodeRef node, Scope& scope, BindingKind kind) {
+  const ast::Item parts = ast::item_of(node);
+  if (!parts.name) return;
+  declare(scope, parts.name, kind, {}, node);
+  if (running()) return;
+  if (kind == BindingKind::function) return evaluator_.check_function(node, scope);
+  if (!parts.block) return;
+  const Session::CheckOnly check(session_);
+  const Evaluator::Activating activating(evaluator_, node);
+  Scope inside(&scope);
+  evaluator_.bind_unknown_parameters(parts.parameters, inside);
+  body(parts.block, inside, {});
+}
+
+void Lowering::declare_proto(NodeRef node, Scope& scope, const Surroundings& around) {
+  const ast::Item parts = ast::item_of(node);
+  if (!parts.name) return;
+  if (around.in_proto) return misplaced(node, "in a proto");
+  ir::Proto proto;
+  if (parts.block) {
+    Scope inside(&scope);
+    items(parts.block, inside, {.transform = {}, .material = {}, .items = &proto.items, .in_proto = true});
+    close(inside);
+  }
+  Value value = make_unknown(Type::proto);
+  if (!session_.checking_only()) {
+    const ir::NameId name = session_.builder.add_name(parts.name.text());
+    value = make_proto(session_.builder.add_proto(std::move(proto), {name, session_.add_origin(node.span())}));
+  }
+  declare(scope, parts.name, BindingKind::proto, std::move(value), node);
+}
+
+void Lowering::include(NodeRef node, Scope& scope) {
+  if (scope.parent() != nullptr) return misplaced(node, "inside a block");
+  const NodeRef name = ast::item_of(node).name;
+  const NodeRef path = node.find_child(SyntaxKind::string);
+  if (!name || !path) return;
+  auto declared = modules_->load(decoded_string(path.text()), path);
+  declare(scope, name, BindingKind::name_space, {}, node);
+  // A file that cannot be read declares nothing; the namespace is then poison to whoever uses it.
+  scope.add_name_space(name.text(), std::move(declared));
+}
+
+}  // namespace scenec::frontend

@@ -1,0 +1,157 @@
+// Shapes, instances, groups and materials.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "frontend/check/check_shape.hpp"
+#include "frontend/check/invertible.hpp"
+#include "frontend/lower/lowering_access.hpp"
+
+namespace scenec::frontend {
+
+using grammar::SyntaxKind;
+
+namespace {
+
+// Shapes an author writes by their kind: all but the instance, which has a keyword.
+std::vector<std::string_view> shape_names() {
+  auto names = KindDispatch<ir::ShapeTypes>::names();
+  std::erase(names, ir::Schema<ir::Instance>::name);
+  return names;
+}
+
+}  // namespace
+
+ir::TransformId Lowering::transform_for(const std::optional<ir::Transform>& own, const Surroundings& around, Span span) {
+  if (!own) return session_.builder.add_transform(around.transform);
+  if (around.transform.is_identity()) return session_.builder.add_transform(*own);
+  ir::Transform product = ir::multiply(around.transform, *own);
+  for (double& entry : product.m) entry += 0.0;
+  if (!check_invertible(session_, product, span)) return {};
+  return session_.builder.add_transform(product);
+}
+
+ir::MaterialId Lowering::material_for(ir::MaterialId own, const Surroundings& around, Span span) {
+  if (own.valid()) return own;
+  if (around.material.valid()) return around.material;
+  if (!session_.is_allowed(DiagnosticKind::default_material)) {
+    if (notes_.bare_count++ == 0) notes_.first_bare = span;
+  }
+  if (!default_material_.valid()) {
+    const ir::Diffuse grey{.color = {{0.5, 0.5, 0.5}, {}}};
+    default_material_ = session_.builder.add_material({.kind = grey, .common = {}}, {});
+  }
+  return default_material_;
+}
+
+template <class T>
+void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope, const Surroundings& around) {
+  const Span head = parts.kind ? parts.kind.span() : parts.block.span();
+  T shape{};
+  ir::Placing placing;
+  {
+    const FieldsLease lease(*this);
+    Scope inside(&scope);
+    collect(parts.block, inside, *lease.fields);
+    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name, head);
+    checker.read(shape);
+    checker.read(placing);
+    checker.template finish<T, ir::Placing>();
+    if (checker.sound() && !session_.checking_only()) check_shape(session_, shape, checker, head);
+    close(inside);
+  }
+  if (session_.checking_only() || !session_.count_item(head)) return;
+  if (!notes_.first_placed.valid()) notes_.first_placed = head;
+  ir::Item item;
+  item.transform = transform_for(placing.transform, around, head);
+  constexpr bool keeps_materials = std::same_as<T, ir::Instance>;
+  item.material = keeps_materials ? placing.material : material_for(placing.material, around, head);
+  item.shape = session_.builder.add_shape(std::move(shape));
+  item.origin = session_.add_origin(node.span());
+  if (parts.name) item.name = session_.builder.add_name(parts.name.text());
+  if (around.items != nullptr) {
+    around.items->push_back(item);
+  } else {
+    session_.builder.place(item);
+  }
+}
+
+void Lowering::shape(NodeRef node, Scope& scope, const Surroundings& around) {
+  const ast::Item parts = ast::item_of(node);
+  if (!parts.kind || !parts.block) return;
+  const bool known = KindDispatch<ir::ShapeTypes>::call(parts.kind.text(), [&]<class T>() { place<T>(parts, node, scope, around); });
+  if (!known) report_unknown_kind(session_, parts.kind, "shape", shape_names());
+}
+
+void Lowering::instance(NodeRef node, Scope& scope, const Surroundings& around) {
+  ast::Item parts = ast::item_of(node);
+  parts.kind = node.find_child(SyntaxKind::keyword);
+  if (parts.block) place<ir::Instance>(parts, node, scope, around);
+}
+
+void Lowering::group(NodeRef node, Scope& scope, const Surroundings& around) {
+  const ast::Item parts = ast::item_of(node);
+  if (!parts.block) return;
+  const NodeRef keyword = node.find_child(SyntaxKind::keyword);
+  const Span head = keyword ? keyword.span() : node.span();
+  Scope inside(&scope);
+  Surroundings inner = around;
+  ir::Placing placing;
+  // Keys may stand anywhere among the items, so names and keys are read before anything is placed.
+  items(parts.block, inside, around, Pass::declarations);
+  {
+    const FieldsLease lease(*this);
+    for (NodeRef child : parts.block.children()) {
+      if (!child.is(SyntaxKind::field)) continue;
+      const ast::Field field = ast::field_of(child);
+      if (field.name) lease.fields->add(session_, {.name = field.name.text(), .name_node = field.name, .expression = field.expression, .block = {}});
+    }
+    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, "group", head);
+    checker.read(placing);
+    checker.finish<ir::Placing>();
+  }
+  if (placing.material.valid()) inner.material = placing.material;
+  if (placing.transform) {
+    inner.transform = ir::multiply(around.transform, *placing.transform);
+    for (double& entry : inner.transform.m) entry += 0.0;
+    if (!check_invertible(session_, inner.transform, head)) inner.transform = {};
+  }
+  items(parts.block, inside, inner, Pass::placements);
+  close(inside);
+}
+
+// ---- materials
+
+template <class T>
+void Lowering::read_material(const ast::Item& parts, NodeRef node, Scope& scope, Value& value) {
+  T kind{};
+  ir::MaterialCommon common;
+  {
+    const FieldsLease lease(*this);
+    Scope inside(&scope);
+    collect(parts.block, inside, *lease.fields);
+    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name, parts.kind.span());
+    checker.read(kind);
+    checker.read(common);
+    checker.template finish<T, ir::MaterialCommon>();
+    close(inside);
+  }
+  if (session_.checking_only()) return;
+  if (common.emission.texture.valid() || common.emission.value != ir::black) notes_.emission = true;
+  const ir::NameId name = session_.builder.add_name(parts.name.text());
+  value = make_material(session_.builder.add_material({std::move(kind), std::move(common)}, {name, session_.add_origin(node.span())}));
+}
+
+void Lowering::declare_material(NodeRef node, Scope& scope) {
+  const ast::Item parts = ast::item_of(node);
+  if (!parts.name) return;
+  Value value = make_unknown(Type::material);
+  if (parts.kind && parts.block) {
+    const bool known = KindDispatch<ir::MaterialKind>::call(parts.kind.text(), [&]<class T>() { read_material<T>(parts, node, scope, value); });
+    if (!known) report_unknown_kind(session_, parts.kind, "material", KindDispatch<ir::MaterialKind>::names());
+  }
+  declare(scope, parts.name, BindingKind::material, std::move(value), node);
+}
+
+}  // namespace scenec::frontend
