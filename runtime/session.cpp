@@ -36,10 +36,12 @@ std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-// A mistake in `-D` is a mistake of the command line, although the compiler finds it.
-bool is_usage_mistake(const Diagnostic& diagnostic) {
-  return info_of(diagnostic.kind).severity == Severity::error && !diagnostic.span.valid() &&
-         info_of(diagnostic.kind).name.starts_with("param-setting");
+// A mistake in `-D` is a mistake of the command line, although the compiler finds it: the parameter
+// does not exist, or the error lies in the text behind the name, which is a file of its own.
+bool is_usage_mistake(const Diagnostic& diagnostic, const SourceMap& sources) {
+  if (info_of(diagnostic.kind).severity != Severity::error) return false;
+  if (diagnostic.kind == DiagnosticKind::unknown_param) return true;
+  return diagnostic.span.valid() && sources.path(diagnostic.span.file).starts_with("-D ");
 }
 
 }  // namespace
@@ -91,9 +93,8 @@ ExitCode Session::finish(const Environment& environment) const {
     environment.err << counted(errors + warnings, errors > 0 ? "error" : "warning") << '\n';
   }
   if (errors == 0) return ExitCode::ok;
-  if (std::any_of(diagnostics.begin(), diagnostics.end(), is_usage_mistake)) {
-    return ExitCode::usage;
-  }
+  const auto is_usage = [&](const Diagnostic& d) { return is_usage_mistake(d, sources_); };
+  if (std::any_of(diagnostics.begin(), diagnostics.end(), is_usage)) return ExitCode::usage;
   if (sink_.only_limits()) return ExitCode::limit;
   return scene_unreadable_ ? ExitCode::file_error : ExitCode::scene_error;
 }

@@ -1,5 +1,7 @@
 // `scenec dump`: the result of one stage of the compiler as text.
 #include "ir/dump.hpp"
+#include <string>
+
 #include "base/file_system.hpp"
 #include "grammar/syntax_tree.hpp"
 #include "runtime/output.hpp"
@@ -7,6 +9,16 @@
 #include "runtime/verbs.hpp"
 
 namespace scenec::runtime {
+
+namespace {
+
+// Text for a terminal or a file ends with a line end.
+std::string ended(std::string text) {
+  if (!text.ends_with('\n')) text += '\n';
+  return text;
+}
+
+}  // namespace
 
 ExitCode verbs::dump(const Options& options, const Environment& environment) {
   Session session(options);
@@ -17,10 +29,10 @@ ExitCode verbs::dump(const Options& options, const Environment& environment) {
   const auto file = session.load();
   if (!file) return session.finish(environment);
   if (options.stage == DumpStage::tree) {
-    return write_text(options.output, grammar::dump_tree(file->tree), session, environment);
+    return write_text(options.output, ended(grammar::dump_tree(file->tree)), session, environment);
   }
   if (options.stage == DumpStage::ast) {
-    return write_text(options.output, frontend::dump_ast(file->native_tree()), session,
+    return write_text(options.output, ended(frontend::dump_ast(file->native_tree())), session,
                       environment);
   }
   const auto scene = session.compile(*file);

@@ -144,10 +144,12 @@ class Compiled {
   Compiled(scenec::FileSystem& files, const std::string& path) : files_(files) {
     scenec::frontend::CompileOptions options;
     if (!path.ends_with(".sdl")) options.dialect = scenec::grammar::Dialect::course;
-    const auto file = scenec::frontend::load(path, options, files, sources_, sink_, "");
-    if (!file) return;
-    if (file->native) native_text_ = std::string(file->native->text());
-    scene_ = scenec::frontend::compile(*file, options, files, sources_, sink_);
+    const auto file = scenec::frontend::load(path, options, files, sources_, sink_);
+    if (file) scene_ = scenec::frontend::compile(*file, options, files, sources_, sink_);
+    // Once more as `convert` does it: with paths relative to the working directory.
+    scenec::DiagnosticSink ignored;
+    const auto written = scenec::frontend::load(path, options, files, sources_, ignored, "");
+    if (written && written->native) native_text_ = std::string(written->native->text());
   }
   [[nodiscard]] const std::optional<scenec::ir::Scene>& scene() const { return scene_; }
   [[nodiscard]] const std::string& native_text() const { return native_text_; }
