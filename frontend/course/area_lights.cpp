@@ -224,8 +224,7 @@ void Lights::write_triangle(const Light& light, Text& out) {
 void Lights::write_mesh(const Light& light, Text& out) {
   if (!require(light, {Role::position, Role::right, Role::up, Role::color})) return;
   const Entry& file = light.fields[Role::file];
-  const auto path = find_asset(context_, file.name, file.name_span);
-  if (!path) return;
+  const std::string path = find_asset(context_, file.name, file.name_span);
   const Entry* const size = light.fields.find(Role::size);
   const Vector x =
       scaled_to(vector_of(light.fields[Role::right]), size == nullptr ? 1 : size->numbers[0].value);
@@ -240,7 +239,7 @@ void Lights::write_mesh(const Light& light, Text& out) {
   const std::string material = materials_.add_emitter(color_of_light(light), light.block.word_span);
   Item item;
   item.head.put("mesh", light.block.word_span);
-  item.add("file", path_text(context_, *path, file.name_span), file.span);
+  item.add("file", path_text(context_, path, file.name_span), file.span);
   item.add("material", Text(material));
   item.add("transform",
            Text("matrix(").put(list_of_values(matrix, light.block.word_span)).put(")"));

@@ -101,7 +101,7 @@ void take_color(std::string_view rest, std::array<double, 3>& color) {
 
 }  // namespace
 
-std::optional<std::string> find_asset(Context& context, std::string_view name, Span where) {
+std::string find_asset(Context& context, std::string_view name, Span where) {
   const std::string scene_directory = directory_of(context.options.scene_path);
   const std::string parent = joined_path(scene_directory.empty() ? "." : scene_directory, "..");
   const std::string places[] = {normalized_path(name), joined_path(scene_directory, name),
@@ -117,7 +117,7 @@ std::optional<std::string> find_asset(Context& context, std::string_view name, S
     tried += fmt::format("{}`{}`", tried.empty() ? "" : ", ", printable(places[i]));
   }
   context.sink.report(std::move(diagnostic).note("tried " + tried));
-  return std::nullopt;
+  return places[0];
 }
 
 Text path_text(const Context& context, const std::string& path, Span origin) {

@@ -12,9 +12,9 @@
 
 namespace scenec::frontend::course {
 
-// Tries the working directory, the scene's directory and its parent. nullopt: nowhere (reported).
-[[nodiscard]] std::optional<std::string> find_asset(Context& context, std::string_view name,
-                                                    Span where);
+// Tries the working directory, the scene's directory and its parent. Where there is no such file
+// that is reported, and the first of these stands for it: what names the file is read on with.
+[[nodiscard]] std::string find_asset(Context& context, std::string_view name, Span where);
 // The path as a string literal, relative to the output directory.
 [[nodiscard]] Text path_text(const Context& context, const std::string& path, Span origin);
 

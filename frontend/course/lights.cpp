@@ -210,11 +210,10 @@ void Lights::write_skybox(const Light& light, Text& out) {
                    "`Skybox` lacks the name of its image");
     return;
   }
-  const auto path = find_asset(context_, file.text(), file.span());
-  if (!path) return;
+  const std::string path = find_asset(context_, file.text(), file.span());
   Item item;
   item.head.put("light: environment", light.block.word_span);
-  item.add("image", image_text(context_, {*path, file.span(), {}}));
+  item.add("image", image_text(context_, {path, file.span(), {}}));
   finish(item, light, out);
 }
 

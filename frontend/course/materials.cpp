@@ -43,9 +43,8 @@ std::optional<TextureUse> Materials::read_texture(const Entry& entry) {
     }
     return textures_[static_cast<std::size_t>(index)];
   }
-  const auto path = find_asset(context_, entry.name, entry.name_span);
-  if (!path) return std::nullopt;
-  TextureUse texture{*path, entry.name_span, {}};
+  const std::string path = find_asset(context_, entry.name, entry.name_span);
+  TextureUse texture{path, entry.name_span, {}};
   if (entry.numbers.size() == 2) {
     texture.repeat = entry.numbers;
   } else if (!entry.numbers.empty()) {

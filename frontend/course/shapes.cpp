@@ -93,8 +93,7 @@ void Objects::write_mesh(const Entry& entry, const Target& target) {
   const Fields fields(context_, entry, Place::mesh, {Role::file});
   if (!fields.complete()) return;
   const Entry& file = fields[Role::file];
-  const auto path = find_asset(context_, file.name, file.name_span);
-  if (!path) return;
+  const std::string path = find_asset(context_, file.name, file.name_span);
   if (!file.numbers.empty() && file.numbers.size() != 4) {
     context_.error(DiagnosticKind::course_wrong_values, file.values_span(),
                    fmt::format("`obj_file` is followed by {} numbers; it takes none or 4",
@@ -103,7 +102,7 @@ void Objects::write_mesh(const Entry& entry, const Target& target) {
   }
   Item item;
   item.head.put("mesh", entry.word_span);
-  item.add("file", path_text(context_, *path, file.name_span), file.span);
+  item.add("file", path_text(context_, path, file.name_span), file.span);
   item.add("normals", fields.find(Role::smooth) != nullptr ? ".smooth" : ".flat");
   Operations own;
   if (file.numbers.size() == 4) {
@@ -136,24 +135,22 @@ void Objects::write_tiny_obj(const Entry& entry, const Target& target) {
                    "`TinyObj` lacks the name of its file");
     return;
   }
-  const auto path = find_asset(context_, file.text(), file.span());
-  if (!path) return;
+  const std::string path = find_asset(context_, file.text(), file.span());
   Item item;
   item.head.put("mesh", entry.word_span);
-  item.add("file", path_text(context_, *path, file.span()), file.span());
+  item.add("file", path_text(context_, path, file.span()), file.span());
   item.add("normals", smooth ? ".smooth" : ".auto");
   finish(item, entry, {}, target, NeedsMaterial::no);
 }
 
 void Objects::write_obj_file(const Entry& file, bool phong, const Target& target) {
-  const auto path = find_asset(context_, file.name, file.name_span);
-  if (!path) return;
+  const std::string path = find_asset(context_, file.name, file.name_span);
   if (!phong) context_.vocabulary = Vocabulary::path;
   Item item;
   item.head.put("mesh", file.word_span);
-  item.add("file", path_text(context_, *path, file.name_span), file.span);
+  item.add("file", path_text(context_, path, file.name_span), file.span);
   item.add("normals", ".auto");
-  if (const auto material = read_obj_material(context_, *path, file.name_span)) {
+  if (const auto material = read_obj_material(context_, path, file.name_span)) {
     variant_ = materials_.add_obj_material(*material, phong, file.span);
   }
   finish(item, file, {}, target, NeedsMaterial::no);
