@@ -1,7 +1,7 @@
 // Reflectance of smooth interfaces, unpolarised.
 //
 // Domain:     cos_i in [0, 1]; eta > 0, the index behind the interface over the index before it.
-// Method:     Fresnel's equations from the sine (Snell), not from an angle; conductors after
+// Method:     Fresnel's equations from cosines (Snell), not from angles; conductors after
 //             Born and Wolf in the form of Lazanyi and Szirmay-Kalos, exact in n and k.
 // Error:      1e-12 absolute (S01); reflectance + transmittance is 1 by construction.
 // Degenerate: beyond the critical angle the reflectance is 1 and cos_t is 0; eta = 1 reflects
@@ -23,9 +23,10 @@ struct DielectricFresnel {
 
 [[nodiscard]] inline DielectricFresnel fresnel_dielectric(double cos_i, double eta) {
   if (eta == 1) return {0, cos_i};
-  const double sin2_t = (1 - cos_i * cos_i) / (eta * eta);
-  if (!(sin2_t < 1)) return {1, 0};
-  const double cos_t = std::sqrt(1 - sin2_t);
+  // 1 - sin^2 / eta^2 without its cancellation near grazing angles and eta = 1.
+  const double scaled = (eta - 1) * (eta + 1) + cos_i * cos_i;
+  if (!(scaled > 0)) return {1, 0};
+  const double cos_t = std::sqrt(scaled) / eta;
   const double parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
   const double perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
   return {(parallel * parallel + perpendicular * perpendicular) / 2, cos_t};

@@ -1,0 +1,162 @@
+#include "backend/film/film.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "backend/film/filter.hpp"
+#include "backend/math/rng.hpp"
+
+namespace scenec::backend {
+namespace {
+
+TEST(fixed_sum, holds_exact_values_of_both_signs) {
+  for (const double value : {0.0, 1.0, -1.0, 0.5, 1e6, -12345.678, 0x1p-64, 3 * 0x1p-60, 0x1p41 + 0.25}) {
+    FixedSum sum;
+    EXPECT_TRUE(sum.add(value));
+    EXPECT_EQ(sum.value(), value);
+    sum.add(-value);
+    EXPECT_EQ(sum.value(), 0);
+  }
+  FixedSum tiny;
+  tiny.add(std::numeric_limits<double>::denorm_min());
+  tiny.add(0x1p-70);
+  EXPECT_EQ(tiny.value(), 0);
+}
+
+TEST(fixed_sum, does_not_depend_on_the_order_of_terms) {
+  std::mt19937_64 random(17);
+  std::vector<double> terms(4096);
+  for (double& t : terms) t = std::ldexp(unit_double(random()) - 0.5, static_cast<int>(random() % 60) - 30);
+  FixedSum first;
+  for (const double t : terms) first.add(t);
+  for (int round = 0; round < 4; ++round) {
+    std::shuffle(terms.begin(), terms.end(), random);
+    FixedSum parts[3];
+    for (std::size_t i = 0; i < terms.size(); ++i) parts[i % 3].add(terms[i]);
+    parts[2] += parts[0];
+    parts[2] += parts[1];
+    EXPECT_EQ(parts[2], first);
+  }
+}
+
+TEST(fixed_sum, saturates_and_says_so) {
+  FixedSum sum;
+  EXPECT_FALSE(sum.add(1e300));
+  EXPECT_EQ(sum.value(), FixedSum::largest_term);
+  for (int i = 0; i < 1000; ++i) sum.add(1e300);
+  EXPECT_GT(sum.value(), 0);
+}
+
+FilmSample sample_of(double radiance, int weight = 1) {
+  FilmSample s;
+  s.radiance = Rgb::gray(radiance);
+  s.weight = weight;
+  s.covered = true;
+  return s;
+}
+
+TEST(film, sixty_four_samples_are_twice_thirty_two) {  // D02
+  ir::RenderSettings settings;
+  settings.size = {3, 2};
+  ThreadPool pool(2);
+  Film whole(settings, Film::Squares::no);
+  Film halves(settings, Film::Squares::no);
+  for (std::uint64_t s = 0; s < 64; ++s) {
+    for (std::size_t x = 0; x < 3; ++x) {
+      const double radiance = std::exp(20 * random_unit(1, x, s, 0) - 10);
+      whole.add(x, 1, sample_of(radiance));
+      halves.add(x, 1, sample_of(radiance));
+    }
+    if (s == 31) halves.finish_round(32, pool);
+  }
+  whole.finish_round(64, pool);
+  halves.finish_round(32, pool);
+  EXPECT_EQ(whole.picture().rgb, halves.picture().rgb);
+  EXPECT_EQ(whole.picture().samples, halves.picture().samples);
+}
+
+TEST(film, a_dropped_round_leaves_no_trace) {
+  ir::RenderSettings settings;
+  settings.size = {1, 1};
+  settings.aovs = {ir::Aov::depth};
+  ThreadPool pool(1);
+  Film film(settings, Film::Squares::yes);
+  film.add(0, 0, sample_of(2));
+  film.finish_round(1, pool);
+  film.add(0, 0, sample_of(100));
+  film.drop_round();
+  EXPECT_EQ(film.picture().rgb[0], 2.0F);
+  EXPECT_EQ(film.picture().samples, 1);
+}
+
+TEST(film, samples_that_are_not_finite_are_counted_and_left_out) {  // C08
+  ir::RenderSettings settings;
+  settings.size = {1, 1};
+  ThreadPool pool(1);
+  Film film(settings, Film::Squares::no);
+  film.add(0, 0, sample_of(3));
+  film.add(0, 0, sample_of(std::numeric_limits<double>::quiet_NaN()));
+  film.add(0, 0, sample_of(std::numeric_limits<double>::infinity()));
+  film.finish_round(3, pool);
+  EXPECT_EQ(film.picture().rgb[0], 3.0F);
+  EXPECT_EQ(film.picture().dropped_samples, 2U);
+}
+
+class Filters : public testing::TestWithParam<ir::FilterKind> {};
+
+TEST_P(Filters, sample_their_own_shape_about_the_centre) {  // C06
+  const ir::PixelFilter filter{GetParam(), ir::usual_radius(GetParam())};
+  const FilterSampler sampler(filter);
+  // Along one axis; the filters are products.
+  constexpr int n = 20000;
+  double weight = 0;
+  double moment = 0;
+  double second = 0;
+  for (int i = 0; i < n; ++i) {
+    const FilterSample s = sampler.sample({(i + 0.5) / n, 0.5});
+    EXPECT_LE(std::fabs(s.dx), filter.radius);
+    weight += s.weight;
+    moment += s.weight * s.dx;
+    second += s.weight * s.dx * s.dx;
+  }
+  // The same moments from the filter itself.
+  double w = 0;
+  double absolute = 0;
+  double x2 = 0;
+  constexpr int steps = 20000;
+  for (int i = 0; i < steps; ++i) {
+    const double x = ((i + 0.5) / steps * 2 - 1) * filter.radius;
+    const double f = filter_value(filter, x);
+    w += f;
+    absolute += std::fabs(f);
+    x2 += f * x * x;
+  }
+  EXPECT_NEAR(moment / weight, 0, 1e-3);
+  EXPECT_NEAR(weight / n, w / absolute, 2e-3);
+  EXPECT_NEAR(second / weight, x2 / w, 5e-3 * filter.radius * filter.radius);
+}
+
+TEST_P(Filters, keep_a_constant_exact) {  // C07
+  ir::RenderSettings settings;
+  settings.size = {1, 1};
+  const FilterSampler sampler({GetParam(), ir::usual_radius(GetParam())});
+  ThreadPool pool(1);
+  Film film(settings, Film::Squares::no);
+  for (std::uint64_t s = 0; s < 64; ++s) {
+    const FilterSample offset = sampler.sample({random_unit(2, 0, s, 0), random_unit(2, 0, s, 1)});
+    film.add(0, 0, sample_of(1e4, offset.weight));
+  }
+  film.finish_round(64, pool);
+  EXPECT_EQ(film.picture().rgb[0], 1e4F);
+}
+
+INSTANTIATE_TEST_SUITE_P(all, Filters,
+                         testing::Values(ir::FilterKind::tent, ir::FilterKind::box, ir::FilterKind::gaussian,
+                                         ir::FilterKind::mitchell, ir::FilterKind::blackman_harris));
+
+}  // namespace
+}  // namespace scenec::backend
