@@ -15,7 +15,8 @@ constexpr std::size_t least_points = 4;
 
 // `controls 4 x y z ...`, or the same without its count: triples.
 bool split_flat(std::vector<Number> numbers, std::vector<std::vector<Number>>& points) {
-  if (numbers.size() % 3 == 1 && numbers[0].value == static_cast<double>(numbers.size() / 3)) {
+  const std::size_t triples = numbers.size() / 3;
+  if (numbers.size() % 3 == 1 && numbers[0].value == static_cast<double>(triples)) {
     numbers.erase(numbers.begin());
   }
   if (numbers.size() % 3 != 0) return false;
@@ -121,7 +122,7 @@ void Objects::write_revolve(const Entry& entry, const Target& target) {
   if (!profile) return;
   Item item;
   item.head.put("revolve", entry.word_span);
-  item.add("profile", std::move(*profile), fields[Role::profile].span);
+  item.add("profile", *profile, fields[Role::profile].span);
   Operations own;
   if (const Entry* const position = fields.find(Role::position);
       position != nullptr && vector_of(*position) != std::array<double, 3>{}) {

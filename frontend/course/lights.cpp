@@ -112,6 +112,7 @@ Text Lights::color_of_light(const Light& light) const {
   const double scale = light.fields.value(Role::scale, 1);
   if (scale == 1) return color_of(color->numbers);
   std::vector<double> values;
+  values.reserve(color->numbers.size());
   for (const Number& number : color->numbers) values.push_back(number.value * scale);
   return color_of_values(values, color->values_span());
 }

@@ -172,6 +172,7 @@ class LobeWriter {
                                      material_.find(Role::rho_s)->values_span()));
     } else if (metallic > 0 && base != nullptr) {
       std::vector<double> values;
+      values.reserve(base->numbers.size());
       for (const Number& number : base->numbers)
         values.push_back(0.04 * (1 - metallic) + number.value * metallic);
       item.add("f0", color_of_values(values, base->values_span()));

@@ -180,14 +180,14 @@ std::string Materials::add_obj_material(const ObjMaterial& material, bool phong,
   extra.item.head.put("material ").put(extra.name).put(phong ? ": phong" : ": diffuse");
   Text color = color_of_values(material.diffuse, origin);
   if (material.texture) color = image_text(context_, {*material.texture, origin, {}});
-  extra.item.add(phong ? "diffuse" : "color", std::move(color));
+  extra.item.add(phong ? "diffuse" : "color", color);
   if (phong) {
     extra.item.add("specular", color_of_values(material.specular, origin));
     extra.item.add("shininess", text_of_value(material.shininess, origin));
   }
   if (material.texture && extension_of(*material.texture) == ".png") {
     Text alpha = image_text(context_, {*material.texture, origin, {}});
-    extra.item.add("opacity", std::move(alpha.put(".alpha")));
+    extra.item.add("opacity", alpha.put(".alpha"));
     extra.item.add("cutout", "0.5");
   }
   extras_.push_back(extra);
@@ -200,7 +200,7 @@ std::string Materials::add_emitter(Text radiance, Span origin) {
   extra.item.origin = origin;
   extra.item.head.put("material ").put(extra.name).put(": diffuse");
   extra.item.add("color", "black");
-  extra.item.add("emission", std::move(radiance));
+  extra.item.add("emission", radiance);
   extra.item.add("two_sided", "true");
   extras_.push_back(extra);
   return extra.name;

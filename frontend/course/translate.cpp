@@ -68,7 +68,7 @@ CameraTexts read_camera(Context& context, const Entry& block) {
   if (const Entry* const angle = fields.find(Role::angle))
     camera.item.add("fov", degrees_of(angle->numbers[0]), angle->span);
   if (aperture) {
-    camera.item.add("aperture", std::move(*aperture));
+    camera.item.add("aperture", *aperture);
     camera.item.add("focus", text_of(focus->numbers[0]), focus->span);
   }
   const Entry* const width = fields.find(Role::width);

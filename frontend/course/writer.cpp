@@ -23,7 +23,7 @@ void Text::cover(std::size_t begin, Span origin) {
                      origin.begin, origin.end});
 }
 
-void Item::add(std::string_view key, Text value, Span origin_of_field) {
+void Item::add(std::string_view key, const Text& value, Span origin_of_field) {
   Text field;
   field.put(key).put(" = ").put(value);
   field.cover(0, origin_of_field);

@@ -54,7 +54,7 @@ struct Item {
   std::vector<Text> fields;  // `key = value`, without the semicolon
   Span origin;
 
-  void add(std::string_view key, Text value, Span origin_of_field = {});
+  void add(std::string_view key, const Text& value, Span origin_of_field = {});
 };
 void write_item(Text& out, const Item& item, std::size_t indent);
 void write_indent(Text& out, std::size_t indent);
