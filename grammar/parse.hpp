@@ -17,6 +17,7 @@ struct ParseLimits {
   std::uint32_t nesting = 256;            // blocks and brackets
   std::uint32_t token = 64u << 10;        // bytes of one token other than a string or comment
   std::uint32_t string = 1u << 20;        // bytes of one string
+  std::uint64_t line = 16u << 20;         // bytes of one line: bounds time and memory of dense text
   std::uint64_t file = 512ull << 20;      // bytes of one file
 };
 

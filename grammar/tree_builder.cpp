@@ -186,11 +186,30 @@ void TreeBuilder::admit() {
   constexpr std::uint64_t most = 0xFFFFFFF0u;  // offsets are 32 bits
   const std::uint64_t limit = std::min<std::uint64_t>(limits_.file, most);
   const std::size_t size = text_.size();
-  if (size <= limit) return check_characters();
+  if (size <= limit) {
+    check_lines();
+    check_characters();
+    return;
+  }
   if (size > most) text_ = {};
   limit_exceeded(
       Diagnostic(DiagnosticKind::text_too_long, span(0, 0),
                  fmt::format("the file has {} bytes; the limit is {} bytes", size, limit)));
+}
+
+void TreeBuilder::check_lines() {
+  for (std::size_t begin = 0; text_.size() - begin > limits_.line;) {
+    const std::size_t end = std::min(text_.find('\n', begin), text_.size());
+    if (end - begin > limits_.line) {
+      const std::uint32_t start = static_cast<std::uint32_t>(begin);
+      limit_exceeded(Diagnostic(DiagnosticKind::text_too_long, span(start, start + 1),
+                                fmt::format("the line has {} bytes; the limit is {} bytes",
+                                            end - begin, limits_.line))
+                         .hint("geometry of that size belongs in a mesh file"));
+    }
+    if (end == text_.size()) return;
+    begin = end + 1;
+  }
 }
 
 void TreeBuilder::check_characters() {

@@ -140,6 +140,7 @@ class TreeBuilder {
   [[nodiscard]] std::vector<Trivia> comments(const std::vector<SyntaxNode>& nodes) const;
   void check_token_limit(SyntaxKind kind, std::uint32_t begin, std::uint32_t end);
   [[noreturn]] void nesting_exceeded(std::uint32_t begin, std::uint32_t end);
+  void check_lines();
   void check_characters();
 
   Dialect dialect_;

@@ -119,11 +119,17 @@ TEST(HostileInput, ALineOf64Mebibytes) {
   });
   expect("line.txt", Outcome::one_error,
          [](std::ostream& out) { repeat(out, std::string(block, 'a'), 1024); });
-  expect("comment.sdl", Outcome::compiles, [](std::ostream& out) {
+  expect("comment.sdl", Outcome::one_error, [](std::ostream& out) {
     out << scene << "// ";
     repeat(out, std::string(block, 'x'), 1024);
     out << "\n";
   });
+  expect("dense.sdl", Outcome::one_error, [](std::ostream& out) {
+    out << scene << "let x = 1";
+    repeat(out, "+1", 32 << 20);
+    out << ";\n";
+  });
+  expect("dense.txt", Outcome::one_error, [](std::ostream& out) { repeat(out, "1 ", 32 << 20); });
 }
 
 TEST(HostileInput, EmptyFiles) {

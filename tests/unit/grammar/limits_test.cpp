@@ -107,18 +107,21 @@ TEST(Limits, tokens_and_files) {
       ElementsAre("E0703 21..26"));
   const Parsed large(Dialect::sdl, "sdl 1; let a = 1;", {.file = 16});
   EXPECT_THAT(large.errors(), ElementsAre("E0702 0..0"));
+  const Parsed wide(Dialect::sdl, "sdl 1;\nlet a = 1 + 1 + 1;\n", {.line = 16});
+  EXPECT_THAT(wide.errors(), ElementsAre("E0702 7..8"));
+  EXPECT_EQ(reassembled_text(wide.tree), wide.text);
   EXPECT_EQ(reassembled_text(large.tree), large.text);
 }
 
 TEST(Limits, megabytes_of_one_thing) {
-  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; let " + std::string(16u << 20, 'a') + " = 1;")
+  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; let " + std::string(15u << 20, 'a') + " = 1;")
                 .sink.error_count(),
             1u);
   EXPECT_EQ(
-      Parsed(Dialect::sdl, "sdl 1; let a = 1;" + std::string(16u << 20, ' ')).sink.error_count(),
+      Parsed(Dialect::sdl, "sdl 1; let a = 1;" + std::string(15u << 20, ' ')).sink.error_count(),
       0u);
-  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; //" + std::string(16u << 20, 'x')).sink.error_count(), 0u);
-  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; let a = \"" + std::string(16u << 20, 'x') + "\";")
+  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; //" + std::string(15u << 20, 'x')).sink.error_count(), 0u);
+  EXPECT_EQ(Parsed(Dialect::sdl, "sdl 1; let a = \"" + std::string(15u << 20, 'x') + "\";")
                 .sink.error_count(),
             1u);
 }
