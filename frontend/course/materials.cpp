@@ -194,7 +194,7 @@ std::string Materials::add_obj_material(const ObjMaterial& material, bool phong,
   return extra.name;
 }
 
-std::string Materials::add_emitter(Text radiance, Span origin) {
+std::string Materials::add_emitter(const Text& radiance, Span origin) {
   ExtraMaterial extra;
   extra.name = fmt::format("light{}", extras_.size());
   extra.item.origin = origin;

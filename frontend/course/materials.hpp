@@ -61,7 +61,7 @@ class Materials {
   [[nodiscard]] std::string add_variant(std::size_t index, TextureUse texture);
   [[nodiscard]] std::string add_obj_material(const ObjMaterial& material, bool phong, Span origin);
   // A black surface that glows; its name.
-  [[nodiscard]] std::string add_emitter(Text radiance, Span origin);
+  [[nodiscard]] std::string add_emitter(const Text& radiance, Span origin);
   [[nodiscard]] std::optional<TextureUse> read_texture(const Entry& entry);
 
   void write(Text& out, bool physical) const;  // physical: method .path
