@@ -8,14 +8,20 @@
 
 namespace scenec::backend {
 
-void destroy(RenderScene* scene) { delete scene; }
+void destroy(RenderScene* scene) {
+  delete scene;
+}
 
 RenderScene::RenderScene(const PreparedScene& prepared)
-    : scene(prepared.scene), images(prepared.images), textures(*prepared.scene, images), facts(*prepared.scene) {}
+    : scene(prepared.scene),
+      images(prepared.images),
+      textures(*prepared.scene, images),
+      facts(*prepared.scene) {}
 
 std::uint64_t path_key(const std::uint32_t* instances, std::uint32_t count, std::uint32_t item) {
   std::uint64_t key = mix_bits(item + 1);
-  for (std::uint32_t i = 0; i < count; ++i) key = mix_bits(key + 0x9e3779b97f4a7c15ULL * (instances[i] + 1));
+  for (std::uint32_t i = 0; i < count; ++i)
+    key = mix_bits(key + 0x9e3779b97f4a7c15ULL * (instances[i] + 1));
   return key;
 }
 
@@ -30,8 +36,10 @@ ir::MaterialId RenderScene::material_of(const Hit& hit) const {
 std::uint32_t RenderScene::emitter_of(const Hit& hit) const {
   const RenderItem& item = items[hit.item];
   if (item.light != RenderItem::none) return item.light;
-  if (hit.instance_count == 0) return item.emitters == RenderItem::none ? RenderItem::none : item.emitters + hit.primitive;
-  const auto found = instanced_emitters.find(path_key(hit.instances.data(), hit.instance_count, hit.item));
+  if (hit.instance_count == 0)
+    return item.emitters == RenderItem::none ? RenderItem::none : item.emitters + hit.primitive;
+  const auto found =
+      instanced_emitters.find(path_key(hit.instances.data(), hit.instance_count, hit.item));
   return found == instanced_emitters.end() ? RenderItem::none : found->second + hit.primitive;
 }
 
@@ -42,7 +50,8 @@ RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool) {
   add_lights(prepared, *scene);
   scene->accel.build(pool);
   const Bounds3 bounds = scene->accel.bounds();
-  if (!bounds.empty() && bounds.finite()) scene->radius = std::fmax(length(bounds.extent()) / 2, 0x1p-500);
+  if (!bounds.empty() && bounds.finite())
+    scene->radius = std::fmax(length(bounds.extent()) / 2, 0x1p-500);
   scene->lights.finish(scene->radius);
   return scene;
 }

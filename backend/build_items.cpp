@@ -7,9 +7,15 @@
 namespace scenec::backend {
 namespace {
 
-Point3 point_of(const ir::Point3& p) { return {p.x, p.y, p.z}; }
-Vector3 vector_of(const ir::Point3& p) { return {p.x, p.y, p.z}; }
-Vector3 vector_of(const ir::Direction& d) { return {d.x, d.y, d.z}; }
+Point3 point_of(const ir::Point3& p) {
+  return {p.x, p.y, p.z};
+}
+Vector3 vector_of(const ir::Point3& p) {
+  return {p.x, p.y, p.z};
+}
+Vector3 vector_of(const ir::Direction& d) {
+  return {d.x, d.y, d.z};
+}
 
 // Shares what can be shared: one accelerator a mesh, a revolve, a proto.
 class ItemAdder {
@@ -31,7 +37,8 @@ class ItemAdder {
     protos_.resize(scene_.protos.size());
     for (std::size_t i = 0; i < protos_.size(); ++i) {
       auto accel = std::make_shared<SceneAccel>();
-      fill(*accel, scene_.protos[ir::ProtoId(static_cast<std::uint32_t>(i))].items, first_of_proto_[i]);
+      fill(*accel, scene_.protos[ir::ProtoId(static_cast<std::uint32_t>(i))].items,
+           first_of_proto_[i]);
       accel->build(pool_);
       protos_[i] = std::move(accel);
     }
@@ -44,34 +51,42 @@ class ItemAdder {
     for (std::size_t i = 0; i < items.size(); ++i) {
       const ir::Item& item = items[i];
       const auto [place, added] = places.try_emplace(item.transform, SceneAccel::identity);
-      if (added && item.transform.valid()) place->second = accel.add_transform(transform_of(scene_, item.transform));
+      if (added && item.transform.valid())
+        place->second = accel.add_transform(transform_of(scene_, item.transform));
       const bool transparent = !item.material.valid() || out_.facts.transparent(item.material);
       add(accel, first + static_cast<std::uint32_t>(i), item, place->second,
           transparent || overridden_ ? ItemOption::filtered : ItemOption::plain);
     }
   }
 
-  void add(SceneAccel& accel, std::uint32_t number, const ir::Item& item, SceneAccel::TransformIndex place,
-           ItemOption option) {
+  void add(SceneAccel& accel, std::uint32_t number, const ir::Item& item,
+           SceneAccel::TransformIndex place, ItemOption option) {
     if (const auto* id = std::get_if<Id<ir::Instance>>(&item.shape)) {
       const std::size_t proto = scene_.shape(*id).of.value();
       accel.add_instance(number, protos_[proto], place);
     } else if (const auto* mesh = std::get_if<Id<ir::Mesh>>(&item.shape)) {
-      accel.add_mesh(number, mesh_accel(*prepared_.meshes[mesh->value()], prepared_.meshes[mesh->value()].get()), place, option);
+      accel.add_mesh(
+          number,
+          mesh_accel(*prepared_.meshes[mesh->value()], prepared_.meshes[mesh->value()].get()),
+          place, option);
     } else if (const auto* revolve = std::get_if<Id<ir::Revolve>>(&item.shape)) {
       accel.add_revolve(number, revolve_accel(*revolve), place, option);
     } else if (const auto* triangle = std::get_if<Id<ir::Triangle>>(&item.shape)) {
       const ir::Triangle& shape = scene_.shape(*triangle);
-      if (shape.normals || shape.uvs) accel.add_mesh(number, std::make_shared<MeshAccel>(mesh_of(shape), pool_), place, option);
-      else accel.add(number, kernel_of(shape), place, option);
+      if (shape.normals || shape.uvs)
+        accel.add_mesh(number, std::make_shared<MeshAccel>(mesh_of(shape), pool_), place, option);
+      else
+        accel.add(number, kernel_of(shape), place, option);
     } else {
       std::visit([&](auto typed) { add_kernel(accel, number, typed, place, option); }, item.shape);
     }
   }
 
   template <class Shape>
-  void add_kernel(SceneAccel& accel, std::uint32_t number, Id<Shape> id, SceneAccel::TransformIndex place, ItemOption option) {
-    if constexpr (requires { kernel_of(scene_.shape(id)); }) accel.add(number, kernel_of(scene_.shape(id)), place, option);
+  void add_kernel(SceneAccel& accel, std::uint32_t number, Id<Shape> id,
+                  SceneAccel::TransformIndex place, ItemOption option) {
+    if constexpr (requires { kernel_of(scene_.shape(id)); })
+      accel.add(number, kernel_of(scene_.shape(id)), place, option);
   }
 
   std::shared_ptr<const MeshAccel> mesh_accel(const TriangleMesh& mesh, const void* key) {
@@ -124,17 +139,27 @@ Transform transform_of(const ir::Scene& scene, ir::TransformId id) {
   return *transform;
 }
 
-Sphere kernel_of(const ir::Sphere& s) { return {point_of(s.center), s.radius.value}; }
+Sphere kernel_of(const ir::Sphere& s) {
+  return {point_of(s.center), s.radius.value};
+}
 Plane kernel_of(const ir::Plane& p) {
   return {as_normal(normalized(vector_of(p.normal)).vector()), p.offset.value};
 }
 Triangle kernel_of(const ir::Triangle& t) {
   return {point_of(t.vertices[0]), point_of(t.vertices[1]), point_of(t.vertices[2])};
 }
-Quad kernel_of(const ir::Quad& q) { return {point_of(q.corner), vector_of(q.edge_u), vector_of(q.edge_v)}; }
-Disk kernel_of(const ir::Disk& d) { return {point_of(d.center), normalized(vector_of(d.normal)), d.radius.value}; }
-Box kernel_of(const ir::Box& b) { return {point_of(b.min), point_of(b.max)}; }
-Cylinder kernel_of(const ir::Cylinder& c) { return Cylinder(point_of(c.base), point_of(c.top), c.radius.value, c.capped); }
+Quad kernel_of(const ir::Quad& q) {
+  return {point_of(q.corner), vector_of(q.edge_u), vector_of(q.edge_v)};
+}
+Disk kernel_of(const ir::Disk& d) {
+  return {point_of(d.center), normalized(vector_of(d.normal)), d.radius.value};
+}
+Box kernel_of(const ir::Box& b) {
+  return {point_of(b.min), point_of(b.max)};
+}
+Cylinder kernel_of(const ir::Cylinder& c) {
+  return Cylinder(point_of(c.base), point_of(c.top), c.radius.value, c.capped);
+}
 
 TriangleMesh mesh_of(const ir::Triangle& t) {
   TriangleMesh mesh;
@@ -154,11 +179,18 @@ Revolve revolve_of(const ir::Revolve& r) {
   for (const ir::Vec2& p : r.profile.points) points.push_back({p.x, p.y});
   Profile profile;
   switch (r.profile.kind) {
-    case ir::CurveKind::polyline: profile = polyline_profile(points); break;
-    case ir::CurveKind::bezier: profile = bezier_profile(points); break;
-    case ir::CurveKind::beziers: profile = beziers_profile(points); break;
+    case ir::CurveKind::polyline:
+      profile = polyline_profile(points);
+      break;
+    case ir::CurveKind::bezier:
+      profile = bezier_profile(points);
+      break;
+    case ir::CurveKind::beziers:
+      profile = beziers_profile(points);
+      break;
     case ir::CurveKind::bspline:
-      profile = bspline_profile(points, r.profile.clamped ? SplineEnds::clamped : SplineEnds::uniform);
+      profile =
+          bspline_profile(points, r.profile.clamped ? SplineEnds::clamped : SplineEnds::uniform);
       break;
   }
   const Axis axis = r.axis == ir::Axis::x ? Axis::x : r.axis == ir::Axis::y ? Axis::y : Axis::z;

@@ -8,9 +8,12 @@
 namespace scenec::backend {
 namespace {
 
-Rgb rgb_of(const ir::Color& c) { return {c.r, c.g, c.b}; }
+Rgb rgb_of(const ir::Color& c) {
+  return {c.r, c.g, c.b};
+}
 
-Emitter flat(EmitterShape shape, const Transform& t, const Point3& origin, const Vector3& a, const Vector3& b) {
+Emitter flat(EmitterShape shape, const Transform& t, const Point3& origin, const Vector3& a,
+             const Vector3& b) {
   Emitter e;
   e.shape = shape;
   e.origin = t.apply(origin);
@@ -21,15 +24,17 @@ Emitter flat(EmitterShape shape, const Transform& t, const Point3& origin, const
 }
 
 Emitter ellipse(const Transform& t, const Point3& center, const Frame& frame, double radius) {
-  return flat(EmitterShape::ellipse, t, center, frame.x.vector() * radius, frame.y.vector() * radius);
+  return flat(EmitterShape::ellipse, t, center, frame.x.vector() * radius,
+              frame.y.vector() * radius);
 }
 
 // Columns of equal length at right angles, up to rounding: spheres stay spheres.
 bool is_similarity(const Vector3& a, const Vector3& b, const Vector3& c) {
   const double scale = length_squared(a);
   const double tolerance = gamma(64) * scale;
-  return std::fabs(length_squared(b) - scale) <= tolerance && std::fabs(length_squared(c) - scale) <= tolerance &&
-         std::fabs(dot(a, b)) <= tolerance && std::fabs(dot(b, c)) <= tolerance && std::fabs(dot(c, a)) <= tolerance;
+  return std::fabs(length_squared(b) - scale) <= tolerance &&
+         std::fabs(length_squared(c) - scale) <= tolerance && std::fabs(dot(a, b)) <= tolerance &&
+         std::fabs(dot(b, c)) <= tolerance && std::fabs(dot(c, a)) <= tolerance;
 }
 
 Emitter sphere(const Transform& t, const Sphere& s) {
@@ -60,13 +65,14 @@ std::vector<Emitter> box(const Transform& t, const Box& box) {
     return flat(EmitterShape::parallelogram, t, corner, a, b);
   };
   // Hit::primitive: -x, +x, -y, +y, -z, +z; a x b points outwards.
-  return {quad(box.min, z, y), quad(box.min + x, y, z), quad(box.min, x, z),
-          quad(box.min + y, z, x), quad(box.min, y, x), quad(box.min + z, x, y)};
+  return {quad(box.min, z, y),     quad(box.min + x, y, z), quad(box.min, x, z),
+          quad(box.min + y, z, x), quad(box.min, y, x),     quad(box.min + z, x, y)};
 }
 
 std::vector<Emitter> cylinder(const Transform& t, const Cylinder& c) {
   const Vector3 axis = c.frame.z.vector() * c.height;
-  Emitter side = flat(EmitterShape::tube, t, c.base, c.frame.x.vector() * c.radius, c.frame.y.vector() * c.radius);
+  Emitter side = flat(EmitterShape::tube, t, c.base, c.frame.x.vector() * c.radius,
+                      c.frame.y.vector() * c.radius);
   side.c = t.apply(axis);
   std::vector<Emitter> out{side};
   if (c.capped) {
@@ -90,7 +96,8 @@ std::vector<Emitter> mesh(const Transform& t, const TriangleMesh& mesh) {
 
 class LightAdder {
  public:
-  LightAdder(const PreparedScene& prepared, RenderScene& out) : prepared_(prepared), scene_(*prepared.scene), out_(out) {
+  LightAdder(const PreparedScene& prepared, RenderScene& out)
+      : prepared_(prepared), scene_(*prepared.scene), out_(out) {
     for (const ir::Proto& proto : scene_.protos) {
       first_of_proto_.push_back(next_item_);
       next_item_ += static_cast<std::uint32_t>(proto.items.size());
@@ -114,14 +121,16 @@ class LightAdder {
     });
   }
 
-  void add_item_list(const std::vector<ir::Item>& items, std::uint32_t first, const Transform& outer, ir::MaterialId replaced) {
+  void add_item_list(const std::vector<ir::Item>& items, std::uint32_t first,
+                     const Transform& outer, ir::MaterialId replaced) {
     for (std::size_t i = 0; i < items.size(); ++i) {
       const ir::Item& item = items[i];
       const std::uint32_t number = first + static_cast<std::uint32_t>(i);
       const ir::MaterialId material = replaced.valid() ? replaced : item.material;
       if (const auto* id = std::get_if<Id<ir::Instance>>(&item.shape)) {
         const ir::ProtoId proto = scene_.shape(*id).of;
-        const bool lit = material.valid() ? out_.facts.emissive(material) : emissive_proto_[proto.value()];
+        const bool lit =
+            material.valid() ? out_.facts.emissive(material) : emissive_proto_[proto.value()];
         if (!lit) continue;
         path_.push_back(number);
         add_item_list(scene_.protos[proto].items, first_of_proto_[proto.value()],
@@ -133,7 +142,8 @@ class LightAdder {
     }
   }
 
-  void add_emissive(const ir::Item& item, std::uint32_t number, const Transform& place, ir::MaterialId material) {
+  void add_emissive(const ir::Item& item, std::uint32_t number, const Transform& place,
+                    ir::MaterialId material) {
     std::vector<Emitter> emitters = emitters_of(prepared_, item.shape, place);
     if (emitters.empty()) return;
     const auto base = static_cast<std::uint32_t>(out_.lights.emitters.size());
@@ -147,8 +157,11 @@ class LightAdder {
       measure(e);
       out_.lights.emitters.push_back(e);
     }
-    if (path_.empty()) out_.items[number].emitters = base;
-    else out_.instanced_emitters[path_key(path_.data(), static_cast<std::uint32_t>(path_.size()), number)] = base;
+    if (path_.empty())
+      out_.items[number].emitters = base;
+    else
+      out_.instanced_emitters[path_key(path_.data(), static_cast<std::uint32_t>(path_.size()),
+                                       number)] = base;
   }
 
   // Over a grid of texture coordinates; only weighs the choice between lights.
@@ -158,20 +171,24 @@ class LightAdder {
     constexpr int steps = 8;
     const int used = material.common.emission.texture.valid() ? steps : 1;
     for (int i = 0; i < used * used; ++i) {
-      sum += out_.textures.color(material.common.emission, {(i % used + 0.5) / used, (i / used + 0.5) / used});
+      sum += out_.textures.color(material.common.emission,
+                                 {(i % used + 0.5) / used, (i / used + 0.5) / used});
     }
     sum = sum / (used * used);
     if (const auto* mix = std::get_if<ir::Mix>(&material.kind)) {
       const double w = out_.textures.number(mix->weight, {0.5, 0.5});
       // Even a part that is off in the middle may shine elsewhere: it must stay choosable.
-      sum += mean_emission(mix->a) * std::fmax(1 - w, 0.01) + mean_emission(mix->b) * std::fmax(w, 0.01);
+      sum += mean_emission(mix->a) * std::fmax(1 - w, 0.01) +
+             mean_emission(mix->b) * std::fmax(w, 0.01);
     }
     return sum;
   }
 
   template <class L>
   [[nodiscard]] static Rgb radiance_of(const L& light, double area_factor) {
-    return rgb_of(light.color) * (light.radiance ? *light.radiance : light.power ? light.power->value / area_factor : 0);
+    return rgb_of(light.color) * (light.radiance ? *light.radiance
+                                  : light.power  ? light.power->value / area_factor
+                                                 : 0);
   }
 
   template <class Kernel>
@@ -184,7 +201,8 @@ class LightAdder {
     item.light = static_cast<std::uint32_t>(out_.lights.emitters.size());
     out_.items.push_back(item);
     out_.lights.emitters.push_back(emitter);
-    out_.accel.add(number, kernel, SceneAccel::identity, visible ? ItemOption::plain : ItemOption::filtered);
+    out_.accel.add(number, kernel, SceneAccel::identity,
+                   visible ? ItemOption::plain : ItemOption::filtered);
   }
 
   void add_light(const ir::LightKind& kind) {
@@ -194,18 +212,22 @@ class LightAdder {
     } else if (const auto* s = std::get_if<ir::SphereLight>(&kind)) {
       const Sphere kernel{{s->center.x, s->center.y, s->center.z}, s->radius.value};
       Emitter e = sphere(world, kernel);
-      // Inside it, light comes from all round. One that is not visible is passed by, so only the side
-      // that is met first may count.
+      // Inside it, light comes from all round. One that is not visible is passed by, so only the
+      // side that is met first may count.
       e.two_sided = s->visible;
-      add_shape(kernel, e, radiance_of(*s, 4 * pi * pi * kernel.radius * kernel.radius), s->visible);
+      add_shape(kernel, e, radiance_of(*s, 4 * pi * pi * kernel.radius * kernel.radius),
+                s->visible);
     } else if (const auto* q = std::get_if<ir::QuadLight>(&kind)) {
-      const Quad kernel{{q->corner.x, q->corner.y, q->corner.z}, {q->edge_u.x, q->edge_u.y, q->edge_u.z},
+      const Quad kernel{{q->corner.x, q->corner.y, q->corner.z},
+                        {q->edge_u.x, q->edge_u.y, q->edge_u.z},
                         {q->edge_v.x, q->edge_v.y, q->edge_v.z}};
-      Emitter e = flat(EmitterShape::parallelogram, world, kernel.corner, kernel.edge_u, kernel.edge_v);
+      Emitter e =
+          flat(EmitterShape::parallelogram, world, kernel.corner, kernel.edge_u, kernel.edge_v);
       measure(e);
       add_shape(kernel, e, radiance_of(*q, pi * e.area), q->visible);
     } else if (const auto* d = std::get_if<ir::DiskLight>(&kind)) {
-      const Disk kernel{{d->center.x, d->center.y, d->center.z}, normalized(Vector3{d->normal.x, d->normal.y, d->normal.z}),
+      const Disk kernel{{d->center.x, d->center.y, d->center.z},
+                        normalized(Vector3{d->normal.x, d->normal.y, d->normal.z}),
                         d->radius.value};
       Emitter e = ellipse(world, kernel.center, frame_about(kernel.normal), kernel.radius);
       measure(e);
@@ -231,9 +253,11 @@ class LightAdder {
 
 }  // namespace
 
-std::vector<Emitter> emitters_of(const PreparedScene& prepared, const ir::ShapeRef& shape, const Transform& t) {
+std::vector<Emitter> emitters_of(const PreparedScene& prepared, const ir::ShapeRef& shape,
+                                 const Transform& t) {
   const ir::Scene& scene = *prepared.scene;
-  if (const auto* id = std::get_if<Id<ir::Sphere>>(&shape)) return {sphere(t, kernel_of(scene.shape(*id)))};
+  if (const auto* id = std::get_if<Id<ir::Sphere>>(&shape))
+    return {sphere(t, kernel_of(scene.shape(*id)))};
   if (const auto* id = std::get_if<Id<ir::Triangle>>(&shape)) {
     const Triangle k = kernel_of(scene.shape(*id));
     return {flat(EmitterShape::triangle, t, k.a, k.b - k.a, k.c - k.a)};
@@ -247,11 +271,15 @@ std::vector<Emitter> emitters_of(const PreparedScene& prepared, const ir::ShapeR
     return {ellipse(t, k.center, frame_about(k.normal), k.radius)};
   }
   if (const auto* id = std::get_if<Id<ir::Box>>(&shape)) return box(t, kernel_of(scene.shape(*id)));
-  if (const auto* id = std::get_if<Id<ir::Cylinder>>(&shape)) return cylinder(t, kernel_of(scene.shape(*id)));
-  if (const auto* id = std::get_if<Id<ir::Mesh>>(&shape)) return mesh(t, *prepared.meshes[id->value()]);
+  if (const auto* id = std::get_if<Id<ir::Cylinder>>(&shape))
+    return cylinder(t, kernel_of(scene.shape(*id)));
+  if (const auto* id = std::get_if<Id<ir::Mesh>>(&shape))
+    return mesh(t, *prepared.meshes[id->value()]);
   return {};  // planes and surfaces of revolution: found by chance
 }
 
-void add_lights(const PreparedScene& prepared, RenderScene& scene) { LightAdder(prepared, scene).add_all(); }
+void add_lights(const PreparedScene& prepared, RenderScene& scene) {
+  LightAdder(prepared, scene).add_all();
+}
 
 }  // namespace scenec::backend

@@ -27,8 +27,10 @@ std::vector<std::uint8_t> bytes_of(const Picture& picture, const ir::RenderSetti
   std::vector<std::uint8_t> bytes(picture.rgb.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const double value = static_cast<double>(picture.rgb[i]) * factor;
-    if (settings.film == ir::FilmKind::course) bytes[i] = course8_of(static_cast<float>(value));
-    else bytes[i] = settings.tonemap == ir::Tonemap::srgb ? srgb8_of(value) : linear8_of(value);
+    if (settings.film == ir::FilmKind::course)
+      bytes[i] = course8_of(static_cast<float>(value));
+    else
+      bytes[i] = settings.tonemap == ir::Tonemap::srgb ? srgb8_of(value) : linear8_of(value);
   }
   return bytes;
 }
@@ -40,11 +42,12 @@ std::string encode_floats(const Picture& picture, const EncodeOptions& options) 
   const char* names[3] = {"R", "G", "B"};
   for (std::size_t c = 0; c < 3; ++c) channels.push_back({names[c], rgb.subspan(c), 3, depth});
   channels.push_back({"A", picture.alpha, 1, depth});
-  for (const auto& [name, samples] : picture.layers) channels.push_back({name, samples, 1, ExrDepth::float32});
+  for (const auto& [name, samples] : picture.layers)
+    channels.push_back({name, samples, 1, ExrDepth::float32});
   std::vector<ExrAttribute> attributes{{"chromaticities", Chromaticities{}}};
   for (const auto& [name, value] : options.metadata) attributes.push_back({name, value});
-  auto bytes = encode_exr(static_cast<std::uint32_t>(picture.width), static_cast<std::uint32_t>(picture.height), channels,
-                          attributes);
+  auto bytes = encode_exr(static_cast<std::uint32_t>(picture.width),
+                          static_cast<std::uint32_t>(picture.height), channels, attributes);
   SCENEC_ASSERT(bytes.ok());
   return std::move(bytes).value();
 }
@@ -63,7 +66,8 @@ std::string encode(const Picture& picture, const ir::RenderSettings& settings, I
                    const EncodeOptions& options) {
   if (format == ImageFormat::exr) return encode_floats(picture, options);
   const std::vector<std::uint8_t> bytes = bytes_of(picture, settings);
-  const Rgb8View view{static_cast<std::uint32_t>(picture.width), static_cast<std::uint32_t>(picture.height), bytes};
+  const Rgb8View view{static_cast<std::uint32_t>(picture.width),
+                      static_cast<std::uint32_t>(picture.height), bytes};
   auto file = format == ImageFormat::png ? encode_png(view, options.metadata) : encode_bmp(view);
   SCENEC_ASSERT(file.ok());
   return std::move(file).value();

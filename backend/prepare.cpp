@@ -12,52 +12,60 @@
 
 namespace scenec::backend {
 
-void destroy(PreparedScene* scene) { delete scene; }
+void destroy(PreparedScene* scene) {
+  delete scene;
+}
 
 namespace {
-
-using MeshTask = std::pair<AssetProblem, bool>;
 
 // Diagnostics of one task; reported afterwards in the order of the tasks.
 struct TaskReport {
   std::vector<Diagnostic> diagnostics;
 };
 
-std::optional<FileContent> read_asset(const ir::Asset& asset, FileSystem& files, std::uint64_t limit, TaskReport& report) {
+std::optional<FileContent> read_asset(const ir::Asset& asset, FileSystem& files,
+                                      std::uint64_t limit, TaskReport& report) {
   auto content = files.read(asset.path, limit);
   if (content) return std::move(content).value();
-  report.diagnostics.emplace_back(DiagnosticKind::file_unreadable, asset.span,
-                                  asset.path + " cannot be read: " + std::string(text_of(content.error())));
+  report.diagnostics.emplace_back(
+      DiagnosticKind::file_unreadable, asset.span,
+      asset.path + " cannot be read: " + std::string(text_of(content.error())));
   return std::nullopt;
 }
 
 std::string located(const std::string& path, const AssetProblem& problem) {
-  return path + (problem.line != 0 ? ":" + std::to_string(problem.line) : "") + ": " + problem.message;
+  return path + (problem.line != 0 ? ":" + std::to_string(problem.line) : "") + ": " +
+         problem.message;
 }
 
 std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, TaskReport& report) {
   const std::string extension = extension_of(asset.path);
   if (extension != ".obj" && extension != ".ply") {
     report.diagnostics.push_back(
-        Diagnostic(DiagnosticKind::mesh_format_unknown, asset.span, asset.path + " is neither an `.obj` nor a `.ply` file"));
+        Diagnostic(DiagnosticKind::mesh_format_unknown, asset.span,
+                   asset.path + " is neither an `.obj` nor a `.ply` file"));
     return std::nullopt;
   }
   const MeshLimits limits;
   const auto content = read_asset(asset, files, limits.file_bytes, report);
   if (!content) return std::nullopt;
-  auto data = extension == ".obj" ? read_obj(content->bytes, limits) : read_ply(content->bytes, limits);
+  auto data =
+      extension == ".obj" ? read_obj(content->bytes, limits) : read_ply(content->bytes, limits);
   if (data) return std::move(data).value();
-  report.diagnostics.emplace_back(DiagnosticKind::mesh_broken, asset.span, located(asset.path, data.error()));
+  report.diagnostics.emplace_back(DiagnosticKind::mesh_broken, asset.span,
+                                  located(asset.path, data.error()));
   return std::nullopt;
 }
 
-std::shared_ptr<const DecodedImage> read_picture(const ir::Asset& asset, FileSystem& files, TaskReport& report) {
+std::shared_ptr<const DecodedImage> read_picture(const ir::Asset& asset, FileSystem& files,
+                                                 TaskReport& report) {
   const ImageLimits limits;
   const auto content = read_asset(asset, files, limits.file_bytes, report);
   if (!content) return nullptr;
   auto image = read_image(content->bytes, extension_of(asset.path), limits);
   if (image) return std::make_shared<DecodedImage>(std::move(image).value());
-  report.diagnostics.emplace_back(DiagnosticKind::image_broken, asset.span, located(asset.path, image.error()));
+  report.diagnostics.emplace_back(DiagnosticKind::image_broken, asset.span,
+                                  located(asset.path, image.error()));
   return nullptr;
 }
 
@@ -105,8 +113,8 @@ std::vector<Span> spans_of_meshes(const ir::Scene& scene) {
   return spans;
 }
 
-void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::vector<Span>& spans, FileSystem& files,
-                   PreparedScene& prepared, TaskReport& task) {
+void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::vector<Span>& spans,
+                   FileSystem& files, PreparedScene& prepared, TaskReport& task) {
   const auto mesh_at = [&](std::size_t i) -> const ir::Mesh& {
     return scene.table<ir::Mesh>()[Id<ir::Mesh>(static_cast<std::uint32_t>(i))];
   };
@@ -118,14 +126,16 @@ void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::ve
   for (std::size_t n = 0; n < group.meshes.size(); ++n) {
     const std::size_t index = group.meshes[n];
     const ir::Mesh& source = mesh_at(index);
-    const auto same = std::find_if(group.meshes.begin(), group.meshes.begin() + static_cast<std::ptrdiff_t>(n),
-                                   [&](std::size_t other) { return same_result(mesh_at(other), source); });
+    const auto same =
+        std::find_if(group.meshes.begin(), group.meshes.begin() + static_cast<std::ptrdiff_t>(n),
+                     [&](std::size_t other) { return same_result(mesh_at(other), source); });
     if (data && same != group.meshes.begin() + static_cast<std::ptrdiff_t>(n)) {
       prepared.meshes[index] = prepared.meshes[*same];
       continue;
     }
     MeshReport report;
-    TriangleMesh mesh = data ? mesh_of_file(source, *data, scene.assets[group.asset].path, scene.assets[group.asset].span, report)
+    TriangleMesh mesh = data ? mesh_of_file(source, *data, scene.assets[group.asset].path,
+                                            scene.assets[group.asset].span, report)
                              : mesh_of_lists(source, spans[index], report);
     if (report.error) task.diagnostics.push_back(std::move(*report.error));
     for (Diagnostic& warning : report.warnings) task.diagnostics.push_back(std::move(warning));
@@ -136,7 +146,8 @@ void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::ve
 std::vector<ir::AssetId> images_of(const ir::Scene& scene) {
   std::vector<ir::AssetId> images;
   for (const ir::TextureNode& node : scene.textures) {
-    if (const auto* image = std::get_if<ir::ImageTexture>(&node.kind)) images.push_back(image->file);
+    if (const auto* image = std::get_if<ir::ImageTexture>(&node.kind))
+      images.push_back(image->file);
   }
   std::sort(images.begin(), images.end());
   images.erase(std::unique(images.begin(), images.end()), images.end());
@@ -145,7 +156,8 @@ std::vector<ir::AssetId> images_of(const ir::Scene& scene) {
 
 }  // namespace
 
-PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool, DiagnosticSink& sink) {
+PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
+                    DiagnosticSink& sink) {
   PreparedPtr prepared(new PreparedScene{&scene, {}, {}});
   prepared->meshes.resize(scene.table<ir::Mesh>().size());
   prepared->images.resize(scene.assets.size());

@@ -14,7 +14,8 @@ Span span_of(const ir::Scene& scene, const ir::Item& item) {
   return item.origin.valid() ? scene.origins[item.origin].span : Span{};
 }
 
-// Levels of instances within each proto. Protos refer to earlier ones only, in the order of the table.
+// Levels of instances within each proto. Protos refer to earlier ones only, in the order of the
+// table.
 std::vector<std::uint32_t> depths_of_protos(const ir::Scene& scene) {
   std::vector<std::uint32_t> depths;
   for (const ir::Proto& proto : scene.protos) {
@@ -30,15 +31,17 @@ std::vector<std::uint32_t> depths_of_protos(const ir::Scene& scene) {
   return depths;
 }
 
-void warn_emission(const ir::Scene& scene, const MaterialFacts& facts, const ir::Item& item, DiagnosticSink& sink) {
+void warn_emission(const ir::Scene& scene, const MaterialFacts& facts, const ir::Item& item,
+                   DiagnosticSink& sink) {
   const bool plane = std::holds_alternative<Id<ir::Plane>>(item.shape);
   if (!plane && !std::holds_alternative<Id<ir::Revolve>>(item.shape)) return;
   if (!item.material.valid() || !facts.emissive(item.material)) return;
-  sink.report(Diagnostic(DiagnosticKind::emission_found_by_chance, span_of(scene, item),
-                         std::string(plane ? "this plane is unbounded" : "this surface of revolution") +
-                             (plane ? " and emits light: " : " emits light: ") +
-                             "paths find it by chance only, so the picture will be noisy")
-                  .hint("use a quad, disk or sphere light for what shall light the scene"));
+  sink.report(
+      Diagnostic(DiagnosticKind::emission_found_by_chance, span_of(scene, item),
+                 std::string(plane ? "this plane is unbounded" : "this surface of revolution") +
+                     (plane ? " and emits light: " : " emits light: ") +
+                     "paths find it by chance only, so the picture will be noisy")
+          .hint("use a quad, disk or sphere light for what shall light the scene"));
 }
 
 }  // namespace

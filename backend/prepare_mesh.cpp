@@ -25,13 +25,16 @@ std::string count_of(std::uint64_t count, const char* one, const char* many) {
 void report_dropped(const MeshData& data, const std::string& path, Span where, MeshReport& report) {
   if (data.dropped_face_count == 0 || data.dropped_faces.empty()) return;
   const DroppedFace& first = data.dropped_faces.front();
-  const std::string at = first.line != 0 ? place_of(path, first.line) : path + ", face " + std::to_string(first.face + 1);
-  const std::string reason =
-      first.reason == DropReason::repeated_vertex ? "a vertex is repeated" : "its corners lie on one line";
-  report.warnings.push_back(
-      Diagnostic(DiagnosticKind::degenerate_faces, where,
-                 at + ": " + count_of(data.dropped_face_count, "face without area is", "faces without area are") +
-                     " left out; of the first, " + reason));
+  const std::string at = first.line != 0 ? place_of(path, first.line)
+                                         : path + ", face " + std::to_string(first.face + 1);
+  const std::string reason = first.reason == DropReason::repeated_vertex
+                                 ? "a vertex is repeated"
+                                 : "its corners lie on one line";
+  report.warnings.push_back(Diagnostic(
+      DiagnosticKind::degenerate_faces, where,
+      at + ": " +
+          count_of(data.dropped_face_count, "face without area is", "faces without area are") +
+          " left out; of the first, " + reason));
 }
 
 struct PositionKey {
@@ -52,13 +55,16 @@ PositionKey key_of(const Point3& p) {
           std::bit_cast<std::uint64_t>(p.z + 0.0)};
 }
 
-double angle_between(const Vector3& a, const Vector3& b) { return atan2(length(cross(a, b)), dot(a, b)); }
+double angle_between(const Vector3& a, const Vector3& b) {
+  return atan2(length(cross(a, b)), dot(a, b));
+}
 
 std::vector<Normal3> normals_of_data(const MeshData& data) {
   std::vector<Normal3> normals;
   normals.reserve(data.normals.size());
   for (const auto& n : data.normals) {
-    normals.push_back({static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
+    normals.push_back(
+        {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
   }
   return normals;
 }
@@ -86,7 +92,8 @@ void take_normals_of_file(const MeshData& data, TriangleMesh& mesh) {
 
 void take_uvs_of_file(const MeshData& data, TriangleMesh& mesh) {
   mesh.uvs.reserve(data.uvs.size() + 1);
-  for (const auto& uv : data.uvs) mesh.uvs.push_back({static_cast<double>(uv[0]), static_cast<double>(uv[1])});
+  for (const auto& uv : data.uvs)
+    mesh.uvs.push_back({static_cast<double>(uv[0]), static_cast<double>(uv[1])});
   mesh.uv_faces = data.uv_triangles;
   std::uint32_t origin = no_index;
   for (Face& face : mesh.uv_faces) {
@@ -99,11 +106,14 @@ void take_uvs_of_file(const MeshData& data, TriangleMesh& mesh) {
   }
 }
 
-void choose_normals(const ir::Mesh& source, const MeshData& data, const std::string& path, Span where,
-                    TriangleMesh& mesh, MeshReport& report) {
+void choose_normals(const ir::Mesh& source, const MeshData& data, const std::string& path,
+                    Span where, TriangleMesh& mesh, MeshReport& report) {
   switch (source.normals.mode) {
-    case ir::NormalMode::flat: return;
-    case ir::NormalMode::smooth: mesh.normals = smooth_normals_of(mesh.positions, mesh.faces); return;
+    case ir::NormalMode::flat:
+      return;
+    case ir::NormalMode::smooth:
+      mesh.normals = smooth_normals_of(mesh.positions, mesh.faces);
+      return;
     case ir::NormalMode::automatic:
       if (!data.normals.empty()) take_normals_of_file(data, mesh);
       return;
@@ -111,7 +121,8 @@ void choose_normals(const ir::Mesh& source, const MeshData& data, const std::str
       if (!every_corner_has_normal(data) && !data.triangles.empty()) {
         report.error = Diagnostic(DiagnosticKind::mesh_lacks_normals, where,
                                   "`normals = .file`, but " + path +
-                                      (data.normals.empty() ? " has no normals" : " has faces without normals"))
+                                      (data.normals.empty() ? " has no normals"
+                                                            : " has faces without normals"))
                            .hint("`.smooth` computes them from the faces, `.flat` uses none");
         return;
       }
@@ -119,9 +130,11 @@ void choose_normals(const ir::Mesh& source, const MeshData& data, const std::str
   }
 }
 
-void warn_without_faces(const TriangleMesh& mesh, const std::string& name, Span where, MeshReport& report) {
+void warn_without_faces(const TriangleMesh& mesh, const std::string& name, Span where,
+                        MeshReport& report) {
   if (!mesh.faces.empty() || report.error) return;
-  report.warnings.push_back(Diagnostic(DiagnosticKind::mesh_without_faces, where, name + " has no face to be seen"));
+  report.warnings.push_back(
+      Diagnostic(DiagnosticKind::mesh_without_faces, where, name + " has no face to be seen"));
 }
 
 bool has_area(const Point3& a, const Point3& b, const Point3& c) {
@@ -132,11 +145,13 @@ bool has_area(const Point3& a, const Point3& b, const Point3& c) {
 
 }  // namespace
 
-std::vector<Normal3> smooth_normals_of(const std::vector<Point3>& positions, const std::vector<Face>& faces) {
+std::vector<Normal3> smooth_normals_of(const std::vector<Point3>& positions,
+                                       const std::vector<Face>& faces) {
   std::vector<std::uint32_t> place(positions.size());
   std::unordered_map<PositionKey, std::uint32_t, PositionKeyHash> places;
   places.reserve(positions.size());
-  for (std::uint32_t i = 0; i < positions.size(); ++i) place[i] = places.try_emplace(key_of(positions[i]), i).first->second;
+  for (std::uint32_t i = 0; i < positions.size(); ++i)
+    place[i] = places.try_emplace(key_of(positions[i]), i).first->second;
   std::vector<Vector3> sums(positions.size());
   for (const Face& face : faces) {
     const Point3 p[3] = {positions[face[0]], positions[face[1]], positions[face[2]]};
@@ -152,12 +167,13 @@ std::vector<Normal3> smooth_normals_of(const std::vector<Point3>& positions, con
   return normals;
 }
 
-TriangleMesh mesh_of_file(const ir::Mesh& source, const MeshData& data, const std::string& path, Span where,
-                          MeshReport& report) {
+TriangleMesh mesh_of_file(const ir::Mesh& source, const MeshData& data, const std::string& path,
+                          Span where, MeshReport& report) {
   TriangleMesh mesh;
   mesh.positions.reserve(data.positions.size());
   const double unit = source.unit.value;
-  for (const auto& p : data.positions) mesh.positions.push_back({p[0] * unit, p[1] * unit, p[2] * unit});
+  for (const auto& p : data.positions)
+    mesh.positions.push_back({p[0] * unit, p[1] * unit, p[2] * unit});
   mesh.faces = data.triangles;
   if (!data.uvs.empty()) take_uvs_of_file(data, mesh);
   choose_normals(source, data, path, where, mesh, report);
@@ -178,17 +194,20 @@ TriangleMesh mesh_of_lists(const ir::Mesh& source, Span where, MeshReport& repor
     return disagree("`uvs` has " + std::to_string(source.uvs.size()) + " entries for " + vertices);
   }
   if (!source.normals.list.empty() && source.normals.list.size() != count) {
-    return disagree("`normals` has " + std::to_string(source.normals.list.size()) + " entries for " + vertices);
+    return disagree("`normals` has " + std::to_string(source.normals.list.size()) +
+                    " entries for " + vertices);
   }
   const double unit = source.unit.value;
-  for (const ir::Point3& p : source.vertices) mesh.positions.push_back({p.x * unit, p.y * unit, p.z * unit});
+  for (const ir::Point3& p : source.vertices)
+    mesh.positions.push_back({p.x * unit, p.y * unit, p.z * unit});
   std::uint64_t dropped = 0;
   std::size_t first_dropped = 0;
   for (std::size_t f = 0; f < source.faces.size(); ++f) {
     const ir::Face& face = source.faces[f];
     for (const std::uint32_t index : face) {
       if (index >= count) {
-        return disagree("face " + std::to_string(f) + " names vertex " + std::to_string(index) + " of " + vertices);
+        return disagree("face " + std::to_string(f) + " names vertex " + std::to_string(index) +
+                        " of " + vertices);
       }
     }
     for (std::size_t i = 2; i < face.size(); ++i) {
@@ -200,13 +219,15 @@ TriangleMesh mesh_of_lists(const ir::Mesh& source, Span where, MeshReport& repor
     }
   }
   if (dropped > 0) {
-    report.warnings.push_back(Diagnostic(DiagnosticKind::degenerate_faces, where,
-                                         count_of(dropped, "triangle without area is", "triangles without area are") +
-                                             " left out, the first of face " + std::to_string(first_dropped)));
+    report.warnings.push_back(
+        Diagnostic(DiagnosticKind::degenerate_faces, where,
+                   count_of(dropped, "triangle without area is", "triangles without area are") +
+                       " left out, the first of face " + std::to_string(first_dropped)));
   }
   for (const ir::Vec2& uv : source.uvs) mesh.uvs.push_back({uv.x, uv.y});
   for (const ir::Direction& n : source.normals.list) mesh.normals.push_back({n.x, n.y, n.z});
-  if (source.normals.mode == ir::NormalMode::smooth) mesh.normals = smooth_normals_of(mesh.positions, mesh.faces);
+  if (source.normals.mode == ir::NormalMode::smooth)
+    mesh.normals = smooth_normals_of(mesh.positions, mesh.faces);
   warn_without_faces(mesh, "the mesh", where, report);
   return mesh;
 }

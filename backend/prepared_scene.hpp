@@ -13,8 +13,8 @@ namespace scenec::backend {
 
 struct PreparedScene {
   const ir::Scene* scene = nullptr;
-  std::vector<std::shared_ptr<const TriangleMesh>> meshes;    // by Id<ir::Mesh>
-  std::vector<std::shared_ptr<const DecodedImage>> images;    // by AssetId
+  std::vector<std::shared_ptr<const TriangleMesh>> meshes;  // by Id<ir::Mesh>
+  std::vector<std::shared_ptr<const DecodedImage>> images;  // by AssetId
 };
 
 }  // namespace scenec::backend

@@ -37,7 +37,8 @@ std::int64_t next_round(std::int64_t done, std::int64_t cap) {
 // Tells the caller how far the picture is, at most every few milliseconds.
 class ProgressReporter {
  public:
-  ProgressReporter(const ProgressFunction& report, Clock::time_point start) : report_(report), last_(start) {}
+  ProgressReporter(const ProgressFunction& report, Clock::time_point start)
+      : report_(report), last_(start) {}
 
   void update(double fraction, std::int64_t samples_done) {
     if (!report_) return;
@@ -59,12 +60,19 @@ class ProgressReporter {
 
 class Renderer {
  public:
-  Renderer(const RenderScene& scene, const ir::RenderSettings& settings, ThreadPool& pool, std::stop_token stop,
-           const ProgressFunction& progress)
-      : scene_(scene), settings_(settings), pool_(pool), stop_(std::move(stop)), start_(Clock::now()),
-        progress_(progress, start_), camera_(scene.scene->cameras[settings.camera], settings.size),
-        filter_(settings.filter), film_(settings, settings.stop.error ? Film::Squares::yes : Film::Squares::no),
-        cap_(sample_cap(settings)), counters_(pool.size()) {
+  Renderer(const RenderScene& scene, const ir::RenderSettings& settings, ThreadPool& pool,
+           std::stop_token stop, const ProgressFunction& progress)
+      : scene_(scene),
+        settings_(settings),
+        pool_(pool),
+        stop_(std::move(stop)),
+        start_(Clock::now()),
+        progress_(progress, start_),
+        camera_(scene.scene->cameras[settings.camera], settings.size),
+        filter_(settings.filter),
+        film_(settings, settings.stop.error ? Film::Squares::yes : Film::Squares::no),
+        cap_(sample_cap(settings)),
+        workers_(pool.size()) {
     tiles_x_ = (film_.region_width() + tile_side - 1) / tile_side;
     tiles_y_ = (film_.region_height() + tile_side - 1) / tile_side;
   }
@@ -81,17 +89,20 @@ class Renderer {
     }
     Picture picture = film_.picture();
     picture.complete = complete;
-    for (const Counters& c : counters_) picture.rays += c.rays.rays;
+    for (const Worker& worker : workers_) picture.rays += worker.rays.rays;
     return picture;
   }
 
  private:
   // Workers do not share cache lines.
-  struct alignas(64) Counters {
+  struct alignas(64) Worker {
     RayCounters rays;
+    BranchStack branches;
   };
 
-  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
 
   bool good_enough() {
     if (film_.samples() == 0) return false;
@@ -107,15 +118,19 @@ class Renderer {
     std::atomic<std::size_t> done{0};
     std::atomic<bool> cut{false};
     const std::int64_t first = film_.samples();
-    const bool all = pool_.for_each(tiles, [&](std::size_t tile, unsigned worker) {
-      if (!render_tile(tile, first, count, counters_[worker].rays)) {
-        cut.store(true, std::memory_order_relaxed);
-        return;
-      }
-      const std::size_t finished = done.fetch_add(1, std::memory_order_relaxed) + 1;
-      const double part = static_cast<double>(finished) / static_cast<double>(tiles);
-      progress_.update(fraction(static_cast<double>(first) + part * static_cast<double>(count)), first);
-    }, stop_);
+    const bool all = pool_.for_each(
+        tiles,
+        [&](std::size_t tile, unsigned worker) {
+          if (!render_tile(tile, first, count, workers_[worker])) {
+            cut.store(true, std::memory_order_relaxed);
+            return;
+          }
+          const std::size_t finished = done.fetch_add(1, std::memory_order_relaxed) + 1;
+          const double part = static_cast<double>(finished) / static_cast<double>(tiles);
+          progress_.update(fraction(static_cast<double>(first) + part * static_cast<double>(count)),
+                           first);
+        },
+        stop_);
     return all && !cut.load();
   }
 
@@ -126,8 +141,8 @@ class Renderer {
   }
 
   // False when a stop request came in between.
-  bool render_tile(std::size_t tile, std::int64_t first, std::int64_t count, RayCounters& counters) {
-    const Tracer tracer(scene_, settings_, counters);
+  bool render_tile(std::size_t tile, std::int64_t first, std::int64_t count, Worker& worker) {
+    const Tracer tracer(scene_, settings_, worker.rays);
     const std::size_t x0 = tile % tiles_x_ * tile_side;
     const std::size_t y0 = tile / tiles_x_ * tile_side;
     const std::size_t x1 = std::min(x0 + tile_side, film_.region_width());
@@ -136,14 +151,15 @@ class Renderer {
       for (std::size_t x = x0; x < x1; ++x) {
         for (std::int64_t s = first; s < first + count; ++s) {
           if (stop_.stop_requested()) return false;
-          film_.add(x, y, sample(tracer, x, y, s));
+          film_.add(x, y, sample(tracer, x, y, s, worker));
         }
       }
     }
     return true;
   }
 
-  [[nodiscard]] FilmSample sample(const Tracer& tracer, std::size_t x, std::size_t y, std::int64_t number) const {
+  [[nodiscard]] FilmSample sample(const Tracer& tracer, std::size_t x, std::size_t y,
+                                  std::int64_t number, Worker& worker) const {
     const std::int64_t px = film_.region().x0 + static_cast<std::int64_t>(x);
     const std::int64_t py = film_.region().y0 + static_cast<std::int64_t>(y);
     const auto pixel = static_cast<std::uint64_t>(py * settings_.size.width + px);
@@ -161,18 +177,22 @@ class Renderer {
     }
     const Sample2 lens = camera_.has_lens() ? sampler.get_2d(dimension::lens) : Sample2{};
     const Ray ray = camera_.ray(film_x, film_y, lens);
-    const TracedSample traced = trace(tracer, ray, sampler);
+    const TracedSample traced = trace(tracer, ray, sampler, worker);
     out.radiance = traced.radiance;
     out.covered = traced.covered;
     out.first = traced.first;
     return out;
   }
 
-  [[nodiscard]] TracedSample trace(const Tracer& tracer, const Ray& ray, const Sampler& sampler) const {
+  [[nodiscard]] TracedSample trace(const Tracer& tracer, const Ray& ray, const Sampler& sampler,
+                                   Worker& worker) const {
     switch (settings_.method) {
-      case ir::Method::path: return trace_path(tracer, ray, sampler);
-      case ir::Method::whitted: return trace_whitted(tracer, ray, sampler);
-      case ir::Method::phong: return trace_phong(tracer, ray, sampler);
+      case ir::Method::path:
+        return trace_path(tracer, ray, sampler);
+      case ir::Method::whitted:
+        return trace_whitted(tracer, ray, sampler, worker.branches);
+      case ir::Method::phong:
+        return trace_phong(tracer, ray, sampler);
     }
     return {};
   }
@@ -187,7 +207,7 @@ class Renderer {
   FilterSampler filter_;
   Film film_;
   std::int64_t cap_;
-  std::vector<Counters> counters_;
+  std::vector<Worker> workers_;
   std::size_t tiles_x_ = 0;
   std::size_t tiles_y_ = 0;
   bool error_reached_ = false;
@@ -195,8 +215,8 @@ class Renderer {
 
 }  // namespace
 
-Picture render(const RenderScene& scene, const ir::RenderSettings& settings, ThreadPool& pool, std::stop_token stop,
-               const ProgressFunction& progress) {
+Picture render(const RenderScene& scene, const ir::RenderSettings& settings, ThreadPool& pool,
+               std::stop_token stop, const ProgressFunction& progress) {
   SCENEC_ASSERT(settings.camera.valid());
   return Renderer(scene, settings, pool, std::move(stop), progress).run();
 }

@@ -20,9 +20,10 @@ namespace scenec::backend {
 // shapes of lights.
 struct RenderItem {
   static constexpr std::uint32_t none = 0xffffffff;
-  ir::MaterialId material;          // invalid: a light, or an instance that keeps its materials
-  std::uint32_t light = none;       // emitter of a light's shape
-  std::uint32_t emitters = none;    // first emitter of an emissive item that stands in the world itself
+  ir::MaterialId material;     // invalid: a light, or an instance that keeps its materials
+  std::uint32_t light = none;  // emitter of a light's shape
+  std::uint32_t emitters =
+      none;  // first emitter of an emissive item that stands in the world itself
 };
 
 struct RenderScene {
@@ -48,6 +49,7 @@ struct RenderScene {
 
 // 64 bits of the instances and the item of a hit. Two paths of one scene with the same key are as
 // likely as a memory error.
-[[nodiscard]] std::uint64_t path_key(const std::uint32_t* instances, std::uint32_t count, std::uint32_t item);
+[[nodiscard]] std::uint64_t path_key(const std::uint32_t* instances, std::uint32_t count,
+                                     std::uint32_t item);
 
 }  // namespace scenec::backend

@@ -7,7 +7,8 @@ MaterialFacts::MaterialFacts(const ir::Scene& scene) {
   for (std::uint32_t i = 0; i < facts_.size(); ++i) {
     find(scene, ir::MaterialId(i));
     const ir::MaterialKind& kind = scene.materials[ir::MaterialId(i)].kind;
-    any_facets_ = any_facets_ || std::holds_alternative<ir::Ggx>(kind) || std::holds_alternative<ir::Conductor>(kind);
+    any_facets_ = any_facets_ || std::holds_alternative<ir::Ggx>(kind) ||
+                  std::holds_alternative<ir::Conductor>(kind);
   }
 }
 
@@ -28,8 +29,8 @@ MaterialFacts::Facts MaterialFacts::find(const ir::Scene& scene, ir::MaterialId 
       facts.emissive = facts.emissive || inner.emissive;
       facts.transparent = facts.transparent || inner.transparent;
       facts.two_sided = facts.two_sided || inner.two_sided;
-      facts.textured_emission =
-          facts.textured_emission || inner.textured_emission || (inner.emissive && mix->weight.texture.valid());
+      facts.textured_emission = facts.textured_emission || inner.textured_emission ||
+                                (inner.emissive && mix->weight.texture.valid());
     }
     // Parts that emit from one side and from both: only the material itself can tell.
     facts.textured_emission = facts.textured_emission || (facts.emissive && facts.two_sided);

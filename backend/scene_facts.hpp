@@ -16,7 +16,9 @@ class MaterialFacts {
   // Opacity may be below 1 somewhere.
   [[nodiscard]] bool transparent(ir::MaterialId id) const { return facts_[id.value()].transparent; }
   // Emission or opacity varies over the surface.
-  [[nodiscard]] bool textured_emission(ir::MaterialId id) const { return facts_[id.value()].textured_emission; }
+  [[nodiscard]] bool textured_emission(ir::MaterialId id) const {
+    return facts_[id.value()].textured_emission;
+  }
   [[nodiscard]] bool two_sided(ir::MaterialId id) const { return facts_[id.value()].two_sided; }
   // Any material that needs the GGX tables.
   [[nodiscard]] bool any_facets() const { return any_facets_; }

@@ -11,20 +11,26 @@ namespace {
 // Half the height of the sensor that `focal` is stated for, metres.
 constexpr double half_sensor = 0.012;
 
-Vector3 vector_of(const ir::Direction& d) { return {d.x, d.y, d.z}; }
+Vector3 vector_of(const ir::Direction& d) {
+  return {d.x, d.y, d.z};
+}
 
 }  // namespace
 
 void CameraSampler::set_frame(const ir::CameraFrame& frame) {
   eye_ = {frame.eye.x, frame.eye.y, frame.eye.z};
   Vector3 view{0, 0, -1};
-  if (frame.aim) view = Point3{frame.aim->x, frame.aim->y, frame.aim->z} - eye_;
-  else if (frame.direction) view = vector_of(*frame.direction);
+  if (frame.aim)
+    view = Point3{frame.aim->x, frame.aim->y, frame.aim->z} - eye_;
+  else if (frame.direction)
+    view = vector_of(*frame.direction);
   forward_ = normalized(view).vector();
   Vector3 side = cross(forward_, vector_of(frame.up));
   if (!(length_squared(side) > 0)) {
     const Vector3 a = abs(forward_);
-    side = cross(forward_, a.x <= a.y && a.x <= a.z ? Vector3{1, 0, 0} : a.y <= a.z ? Vector3{0, 1, 0} : Vector3{0, 0, 1});
+    side = cross(forward_, a.x <= a.y && a.x <= a.z ? Vector3{1, 0, 0}
+                           : a.y <= a.z             ? Vector3{0, 1, 0}
+                                                    : Vector3{0, 0, 1});
   }
   right_ = normalized(side).vector();
   up_ = cross(right_, forward_);
@@ -43,7 +49,8 @@ void CameraSampler::set_focal(const std::optional<Angle>& fov, const std::option
 }
 
 CameraSampler::CameraSampler(const ir::Camera& camera, ir::ImageSize size)
-    : half_width_(static_cast<double>(size.width) / 2), half_height_(static_cast<double>(size.height) / 2) {
+    : half_width_(static_cast<double>(size.width) / 2),
+      half_height_(static_cast<double>(size.height) / 2) {
   if (const auto* pinhole = std::get_if<ir::Pinhole>(&camera.kind)) {
     set_frame(*pinhole);
     set_focal(pinhole->fov, pinhole->focal);
@@ -51,7 +58,8 @@ CameraSampler::CameraSampler(const ir::Camera& camera, ir::ImageSize size)
     set_frame(*lens);
     set_focal(lens->fov, lens->focal);
     const double focal_length = lens->focal ? lens->focal->value : focal_ratio_ * half_sensor;
-    lens_radius_ = lens->aperture ? lens->aperture->value : focal_length / (2 * lens->f_stop.value_or(8));
+    lens_radius_ =
+        lens->aperture ? lens->aperture->value : focal_length / (2 * lens->f_stop.value_or(8));
     focus_ = lens->focus.distance.value;
     if (lens->focus.at_aim && lens->aim) {
       focus_ = dot(Point3{lens->aim->x, lens->aim->y, lens->aim->z} - eye_, forward_);
@@ -83,12 +91,14 @@ Ray CameraSampler::ray(double film_x, double film_y, Sample2 lens) const {
   const double x = film_x - half_width_;
   const double y = half_height_ - film_y;
   if (kind_ == Kind::orthographic) {
-    return {.origin = eye_ + right_ * (x * pixel_size_) + up_ * (y * pixel_size_), .direction = forward_};
+    return {.origin = eye_ + right_ * (x * pixel_size_) + up_ * (y * pixel_size_),
+            .direction = forward_};
   }
   if (kind_ == Kind::panorama) {
     const SinCos azimuth = sin_cos(pi * x / half_width_);
     const SinCos elevation = sin_cos(pi / 2 * y / half_height_);
-    const Vector3 d = (forward_ * azimuth.cos + right_ * azimuth.sin) * elevation.cos + up_ * elevation.sin;
+    const Vector3 d =
+        (forward_ * azimuth.cos + right_ * azimuth.sin) * elevation.cos + up_ * elevation.sin;
     return {.origin = eye_, .direction = normalized(d).vector()};
   }
   const Vector3 d = forward_ * focal_pixels_ + right_ * x + up_ * y;

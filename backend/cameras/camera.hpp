@@ -35,11 +35,11 @@ class CameraSampler {
   Vector3 forward_{0, 0, -1}, right_{1, 0, 0}, up_{0, 1, 0};
   double half_width_ = 0, half_height_ = 0;  // of the film in pixels
   double focal_pixels_ = 1;
-  double focal_ratio_ = 1;                   // focal length over half the sensor's height
+  double focal_ratio_ = 1;  // focal length over half the sensor's height
   double lens_radius_ = 0;
   double focus_ = 1;
   std::int64_t blades_ = 0;
-  double pixel_size_ = 1;                    // orthographic
+  double pixel_size_ = 1;  // orthographic
 };
 
 }  // namespace scenec::backend

@@ -19,7 +19,8 @@ Film::Film(const ir::RenderSettings& settings, Squares squares)
   height_ = static_cast<std::size_t>(std::max<std::int64_t>(0, region_.y1 - region_.y0));
   for (const ir::Aov aov : settings.aovs) {
     if (aov == ir::Aov::variance) keep_squares_ = true;
-    if (aov != ir::Aov::variance && aov != ir::Aov::samples && aov != ir::Aov::trust) keep_extra_ = true;
+    if (aov != ir::Aov::variance && aov != ir::Aov::samples && aov != ir::Aov::trust)
+      keep_extra_ = true;
   }
   const std::size_t pixels = width_ * height_;
   total_.resize(pixels);
@@ -69,7 +70,9 @@ void Film::add(std::size_t x, std::size_t y, const FilmSample& sample) {
   bool fits = true;
   for (int c = 0; c < 3; ++c) {
     fits = sums.rgb[c].add(sample.weight * channels[c]) && fits;
-    if (keep_squares_) round_squares_[pixel].rgb[c].add(std::fmin(channels[c] * channels[c], FixedSum::largest_term));
+    if (keep_squares_)
+      round_squares_[pixel].rgb[c].add(
+          std::fmin(channels[c] * channels[c], FixedSum::largest_term));
   }
   if (!fits) saturated_.fetch_add(1, std::memory_order_relaxed);
   sums.weight += sample.weight;
@@ -139,7 +142,8 @@ double Film::estimated_error() const {
     const double d = divisor(s.weight, s.count);
     luminance_sum += luminance({s.rgb[0].value() / d, s.rgb[1].value() / d, s.rgb[2].value() / d});
   }
-  const double mean_luminance = luminance_sum / static_cast<double>(std::max<std::size_t>(1, total_.size()));
+  const double mean_luminance =
+      luminance_sum / static_cast<double>(std::max<std::size_t>(1, total_.size()));
   const double epsilon = 0.01 * mean_luminance * mean_luminance;
   double sum = 0;
   for (std::size_t i = 0; i < total_.size(); ++i) {
@@ -147,7 +151,8 @@ double Film::estimated_error() const {
     if (n < 2) continue;
     for (int c = 0; c < 3; ++c) {
       const double mean = total_[i].rgb[c].value() / divisor(total_[i].weight, total_[i].count);
-      const double variance = std::fmax(0, total_squares_[i].rgb[c].value() / n - mean * mean) / (n - 1);
+      const double variance =
+          std::fmax(0, total_squares_[i].rgb[c].value() / n - mean * mean) / (n - 1);
       const double scale = mean * mean + epsilon;
       if (scale > 0) sum += variance / scale;
     }
@@ -164,7 +169,8 @@ Picture Film::picture() const {
   for (std::size_t i = 0; i < total_.size(); ++i) {
     const Sums& s = total_[i];
     const double d = divisor(s.weight, s.count);
-    for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * i + c] = static_cast<float>(s.rgb[c].value() / d);
+    for (std::size_t c = 0; c < 3; ++c)
+      picture.rgb[3 * i + c] = static_cast<float>(s.rgb[c].value() / d);
     picture.alpha[i] = static_cast<float>(std::clamp(static_cast<double>(s.covered) / d, 0.0, 1.0));
   }
   picture.samples = samples_;

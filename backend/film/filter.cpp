@@ -16,7 +16,10 @@ double mitchell(double x) {
   constexpr double c = 1.0 / 3;
   x = std::fabs(x);
   if (x >= 2) return 0;
-  if (x >= 1) return ((-b - 6 * c) * x * x * x + (6 * b + 30 * c) * x * x + (-12 * b - 48 * c) * x + 8 * b + 24 * c) / 6;
+  if (x >= 1)
+    return ((-b - 6 * c) * x * x * x + (6 * b + 30 * c) * x * x + (-12 * b - 48 * c) * x + 8 * b +
+            24 * c) /
+           6;
   return ((12 - 9 * b - 6 * c) * x * x * x + (-18 + 12 * b + 6 * c) * x * x + 6 - 2 * b) / 6;
 }
 
@@ -32,15 +35,19 @@ double filter_value(const ir::PixelFilter& filter, double x) {
   const double scaled = x / filter.radius;
   if (!(std::fabs(scaled) < 1)) return 0;
   switch (filter.kind) {
-    case ir::FilterKind::tent: return 1 - std::fabs(scaled);
-    case ir::FilterKind::box: return 1;
+    case ir::FilterKind::tent:
+      return 1 - std::fabs(scaled);
+    case ir::FilterKind::box:
+      return 1;
     case ir::FilterKind::gaussian: {
       // Standard deviation a third of the radius, lowered to meet zero at the edge.
       const double edge = exp(-4.5);
       return exp(-4.5 * scaled * scaled) - edge;
     }
-    case ir::FilterKind::mitchell: return mitchell(2 * scaled);
-    case ir::FilterKind::blackman_harris: return blackman_harris(scaled);
+    case ir::FilterKind::mitchell:
+      return mitchell(2 * scaled);
+    case ir::FilterKind::blackman_harris:
+      return blackman_harris(scaled);
   }
   return 0;
 }
@@ -72,7 +79,8 @@ FilterSampler::Offset FilterSampler::offset(double u) const {
   const double low = cumulative_[step];
   const double width = cumulative_[step + 1] - low;
   const double within = width > 0 ? (u - low) / width : 0.5;
-  return {((static_cast<double>(step) + within) / table_steps * 2 - 1) * filter_.radius, signs_[step]};
+  return {((static_cast<double>(step) + within) / table_steps * 2 - 1) * filter_.radius,
+          signs_[step]};
 }
 
 FilterSample FilterSampler::sample(Sample2 u) const {

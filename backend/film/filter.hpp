@@ -1,5 +1,5 @@
-// Pixel filters, sampled in proportion to their magnitude: a sample belongs to one pixel and carries
-// only the sign of the filter as its weight.
+// Pixel filters, sampled in proportion to their magnitude: a sample belongs to one pixel and
+// carries only the sign of the filter as its weight.
 //
 // Domain:     radius > 0; numbers in [0, 1).
 // Method:     tent and box by their inverse integrals; the others by a table of 1024 steps of

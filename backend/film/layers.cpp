@@ -25,19 +25,28 @@ void Film::append_layers(Picture& picture) const {
   for (const ir::Aov aov : settings_.aovs) {
     switch (aov) {
       case ir::Aov::albedo:
-        append(picture, "albedo.R", n, [&](std::size_t i) { return mean(total_extra_[i].albedo[0], i); });
-        append(picture, "albedo.G", n, [&](std::size_t i) { return mean(total_extra_[i].albedo[1], i); });
-        append(picture, "albedo.B", n, [&](std::size_t i) { return mean(total_extra_[i].albedo[2], i); });
+        append(picture, "albedo.R", n,
+               [&](std::size_t i) { return mean(total_extra_[i].albedo[0], i); });
+        append(picture, "albedo.G", n,
+               [&](std::size_t i) { return mean(total_extra_[i].albedo[1], i); });
+        append(picture, "albedo.B", n,
+               [&](std::size_t i) { return mean(total_extra_[i].albedo[2], i); });
         break;
       case ir::Aov::normal:
-        append(picture, "N.X", n, [&](std::size_t i) { return mean(total_extra_[i].normal[0], i); });
-        append(picture, "N.Y", n, [&](std::size_t i) { return mean(total_extra_[i].normal[1], i); });
-        append(picture, "N.Z", n, [&](std::size_t i) { return mean(total_extra_[i].normal[2], i); });
+        append(picture, "N.X", n,
+               [&](std::size_t i) { return mean(total_extra_[i].normal[0], i); });
+        append(picture, "N.Y", n,
+               [&](std::size_t i) { return mean(total_extra_[i].normal[1], i); });
+        append(picture, "N.Z", n,
+               [&](std::size_t i) { return mean(total_extra_[i].normal[2], i); });
         break;
       case ir::Aov::position:
-        append(picture, "P.X", n, [&](std::size_t i) { return mean(total_extra_[i].position[0], i); });
-        append(picture, "P.Y", n, [&](std::size_t i) { return mean(total_extra_[i].position[1], i); });
-        append(picture, "P.Z", n, [&](std::size_t i) { return mean(total_extra_[i].position[2], i); });
+        append(picture, "P.X", n,
+               [&](std::size_t i) { return mean(total_extra_[i].position[0], i); });
+        append(picture, "P.Y", n,
+               [&](std::size_t i) { return mean(total_extra_[i].position[1], i); });
+        append(picture, "P.Z", n,
+               [&](std::size_t i) { return mean(total_extra_[i].position[2], i); });
         break;
       case ir::Aov::depth:
         append(picture, "Z", n, [&](std::size_t i) { return mean(total_extra_[i].depth, i); });
@@ -48,10 +57,12 @@ void Film::append_layers(Picture& picture) const {
         break;
       case ir::Aov::ids:
         // 0 is nothing, so numbers start at 1.
-        append(picture, "id.item", n,
-               [&](std::size_t i) { return total_extra_[i].identified ? total_extra_[i].item + 1.0 : 0.0; });
-        append(picture, "id.material", n,
-               [&](std::size_t i) { return total_extra_[i].identified ? total_extra_[i].material + 1.0 : 0.0; });
+        append(picture, "id.item", n, [&](std::size_t i) {
+          return total_extra_[i].identified ? total_extra_[i].item + 1.0 : 0.0;
+        });
+        append(picture, "id.material", n, [&](std::size_t i) {
+          return total_extra_[i].identified ? total_extra_[i].material + 1.0 : 0.0;
+        });
         break;
       case ir::Aov::variance: {
         const char* names[3] = {"variance.R", "variance.G", "variance.B"};
@@ -59,13 +70,15 @@ void Film::append_layers(Picture& picture) const {
           append(picture, names[c], n, [&](std::size_t i) {
             const double count = std::max(2, total_[i].count);
             const double average = total_[i].rgb[c].value() / count;
-            return std::fmax(0, total_squares_[i].rgb[c].value() / count - average * average) / (count - 1);
+            return std::fmax(0, total_squares_[i].rgb[c].value() / count - average * average) /
+                   (count - 1);
           });
         }
         break;
       }
       case ir::Aov::samples:
-        append(picture, "samples.Y", n, [&](std::size_t i) { return static_cast<double>(total_[i].count); });
+        append(picture, "samples.Y", n,
+               [&](std::size_t i) { return static_cast<double>(total_[i].count); });
         break;
       case ir::Aov::trust:
         break;  // how far a pixel can be trusted needs two estimates; this renderer makes one

@@ -25,10 +25,10 @@ struct PathState {
   Ray ray;
   Rgb throughput{1, 1, 1};
   Rgb radiance;
-  double eta_scale = 1;         // radiance scalings undone, for judging what the path can still bring
-  double scatter_pdf = 0;       // of the last direction
-  bool specular = true;         // the last direction could not have been found by aiming
-  Point3 scatter_point;         // where it started
+  double eta_scale = 1;    // radiance scalings undone, for judging what the path can still bring
+  double scatter_pdf = 0;  // of the last direction
+  bool specular = true;    // the last direction could not have been found by aiming
+  Point3 scatter_point;    // where it started
   std::uint32_t depth = 0;
   MediumStack media;
 };
@@ -41,7 +41,8 @@ void add_escaped(const Tracer& tracer, PathState& path) {
     return;
   }
   for (std::size_t i = 0; i < lights.environments.size(); ++i) {
-    const double weight = path.specular ? 1 : power_heuristic(path.scatter_pdf, lights.pdf_of_environment(i, d));
+    const double weight =
+        path.specular ? 1 : power_heuristic(path.scatter_pdf, lights.pdf_of_environment(i, d));
     path.radiance += path.throughput * lights.environments[i].radiance(d) * weight;
   }
 }
@@ -53,21 +54,24 @@ void add_emission(const Tracer& tracer, PathState& path, const Hit& hit) {
   if (!path.specular) {
     const std::uint32_t emitter = tracer.scene().emitter_of(hit);
     if (emitter != RenderItem::none) {
-      const double pdf = tracer.scene().lights.pdf_of_emitter(emitter, path.scatter_point, hit.point, hit.geometric_normal);
+      const double pdf = tracer.scene().lights.pdf_of_emitter(emitter, path.scatter_point,
+                                                              hit.point, hit.geometric_normal);
       weight = power_heuristic(path.scatter_pdf, pdf);
     }
   }
   path.radiance += path.throughput * emitted * weight;
 }
 
-void add_direct(const Tracer& tracer, PathState& path, const Hit& hit, const Bsdf& bsdf, const Sampler& sampler) {
+void add_direct(const Tracer& tracer, PathState& path, const Hit& hit, const Bsdf& bsdf,
+                const Sampler& sampler) {
   const double u = sampler.get_1d(dimension::bounce(path.depth) + dimension::light_choice);
   const LightTable::Choice choice = tracer.scene().lights.choose(u);
   if (!(choice.probability > 0)) return;
   const auto weight = [&](const LightSample& light, double bsdf_pdf) {
     return light.delta ? 1.0 : power_heuristic(choice.probability * light.pdf, bsdf_pdf);
   };
-  path.radiance += path.throughput * tracer.direct(hit, bsdf, choice.light, path.depth, sampler, weight) *
+  path.radiance += path.throughput *
+                   tracer.direct(hit, bsdf, choice.light, path.depth, sampler, weight) *
                    (1 / choice.probability);
 }
 
@@ -75,7 +79,8 @@ void absorb(const Tracer& tracer, PathState& path, double distance) {
   if (path.media.empty()) return;
   const Rgb sigma = absorption_of(tracer.scene(), path.media.innermost());
   if (is_black(sigma)) return;
-  path.throughput *= Rgb(exp(-sigma.r * distance), exp(-sigma.g * distance), exp(-sigma.b * distance));
+  path.throughput *=
+      Rgb(exp(-sigma.r * distance), exp(-sigma.g * distance), exp(-sigma.b * distance));
 }
 
 // False: the path ends.
@@ -88,10 +93,11 @@ bool survives(PathState& path, const Sampler& sampler) {
   return true;
 }
 
-bool scatter(PathState& path, const Hit& hit, const Bsdf& bsdf, ir::MaterialId material, const Sampler& sampler) {
+bool scatter(PathState& path, const Hit& hit, const Bsdf& bsdf, ir::MaterialId material,
+             const Sampler& sampler) {
   const std::uint32_t base = dimension::bounce(path.depth);
-  const BsdfSample s =
-      sample_bsdf(bsdf, sampler.get_1d(base + dimension::lobe), sampler.get_2d(base + dimension::direction));
+  const BsdfSample s = sample_bsdf(bsdf, sampler.get_1d(base + dimension::lobe),
+                                   sampler.get_2d(base + dimension::direction));
   if (is_black(s.weight)) return false;
   path.throughput *= s.weight;
   path.eta_scale *= s.eta_scale;
@@ -100,8 +106,10 @@ bool scatter(PathState& path, const Hit& hit, const Bsdf& bsdf, ir::MaterialId m
   path.scatter_point = hit.point;
   path.ray = spawn_ray(hit, s.wi);
   if (s.transmitted) {
-    if (bsdf.entering) path.media.enter(material);
-    else path.media.leave(material);
+    if (bsdf.entering)
+      path.media.enter(material);
+    else
+      path.media.leave(material);
   }
   ++path.depth;
   return true;
@@ -111,7 +119,8 @@ bool scatter(PathState& path, const Hit& hit, const Bsdf& bsdf, ir::MaterialId m
 
 TracedSample trace_path(const Tracer& tracer, const Ray& ray, const Sampler& sampler) {
   const RenderScene& scene = tracer.scene();
-  const auto max_depth = static_cast<std::uint64_t>(tracer.settings().max_depth.value_or(std::int64_t{1} << 32));
+  const auto max_depth =
+      static_cast<std::uint64_t>(tracer.settings().max_depth.value_or(std::int64_t{1} << 32));
   TracedSample out;
   PathState path;
   path.ray = ray;

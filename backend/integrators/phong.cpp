@@ -22,9 +22,12 @@ PhongTerms terms_of(const RenderScene& scene, ir::MaterialId id, Sample2 uv) {
   if (const auto* m = std::get_if<ir::Phong>(&material.kind)) {
     return {t.color(m->diffuse, uv), t.color(m->specular, uv), t.number(m->shininess, uv)};
   }
-  if (const auto* m = std::get_if<ir::Diffuse>(&material.kind)) return {t.color(m->color, uv), {}, 0};
-  if (const auto* m = std::get_if<ir::Mirror>(&material.kind)) return {t.color(m->color, uv), {}, 0};
-  if (const auto* m = std::get_if<ir::Dielectric>(&material.kind)) return {t.color(m->tint, uv), {}, 0};
+  if (const auto* m = std::get_if<ir::Diffuse>(&material.kind))
+    return {t.color(m->color, uv), {}, 0};
+  if (const auto* m = std::get_if<ir::Mirror>(&material.kind))
+    return {t.color(m->color, uv), {}, 0};
+  if (const auto* m = std::get_if<ir::Dielectric>(&material.kind))
+    return {t.color(m->tint, uv), {}, 0};
   if (const auto* m = std::get_if<ir::Ggx>(&material.kind)) return {t.color(m->base, uv), {}, 0};
   if (const auto* m = std::get_if<ir::Conductor>(&material.kind)) {
     return {m->f0 ? t.color(*m->f0, uv) : Rgb(1, 1, 1), {}, 0};
@@ -39,7 +42,8 @@ PhongTerms terms_of(const RenderScene& scene, ir::MaterialId id, Sample2 uv) {
 
 // Most scenes have whole exponents, and repeated multiplication is what pow does best; pow itself
 // keeps the course's rule for 0.
-Rgb shade(const PhongTerms& m, const Vector3& n, const Vector3& to_viewer, const Vector3& to_light, const Rgb& light) {
+Rgb shade(const PhongTerms& m, const Vector3& n, const Vector3& to_viewer, const Vector3& to_light,
+          const Rgb& light) {
   const double n_l = dot(n, to_light);
   const Vector3 mirrored = n * (2 * n_l) - to_light;
   const double v_r = dot(to_viewer, mirrored);
@@ -72,7 +76,8 @@ TracedSample trace_phong(const Tracer& tracer, const Ray& ray, const Sampler& sa
   const Vector3 to_viewer = -ray.direction;
   for (const DeltaLight& light : scene.lights.deltas) {
     Vector3 to_light = -light.direction.vector();
-    if (light.kind != DeltaLight::Kind::directional) to_light = normalized(light.position - hit.point).vector();
+    if (light.kind != DeltaLight::Kind::directional)
+      to_light = normalized(light.position - hit.point).vector();
     Rgb value = light.value;
     if (light.kind == DeltaLight::Kind::spot) value *= spot_share(light, -to_light);
     out.radiance += shade(terms, n, to_viewer, to_light, value);

@@ -4,20 +4,24 @@
 
 namespace scenec::backend {
 
-bool Tracer::keeps(const Hit& hit, RayKind kind, std::uint32_t depth, const Sampler& sampler) const {
+bool Tracer::keeps(const Hit& hit, RayKind kind, std::uint32_t depth,
+                   const Sampler& sampler) const {
   const RenderItem& item = scene_.items[hit.item];
-  if (item.light != RenderItem::none) return kind == RayKind::scattered || scene_.lights.emitters[item.light].visible;
+  if (item.light != RenderItem::none)
+    return kind == RayKind::scattered || scene_.lights.emitters[item.light].visible;
   const double opacity = opacity_of(scene_, scene_.material_of(hit), {hit.u, hit.v});
   if (opacity >= 1) return true;
   if (!(opacity > 0)) return false;
   // Each surface a ray passes takes a number of its own: told apart by what and where it is.
   const std::uint64_t key = path_key(hit.instances.data(), hit.instance_count, hit.item);
-  const std::uint64_t what = key ^ (static_cast<std::uint64_t>(hit.primitive) << 32) ^ std::bit_cast<std::uint64_t>(hit.t) ^
+  const std::uint64_t what = key ^ (static_cast<std::uint64_t>(hit.primitive) << 32) ^
+                             std::bit_cast<std::uint64_t>(hit.t) ^
                              (kind == RayKind::shadow ? 0x9e3779b97f4a7c15ULL : 0);
   return sampler.random(dimension::bounce(depth) + dimension::opacity, what) < opacity;
 }
 
-bool Tracer::intersect(const Ray& ray, RayKind kind, std::uint32_t depth, const Sampler& sampler, Hit& hit) const {
+bool Tracer::intersect(const Ray& ray, RayKind kind, std::uint32_t depth, const Sampler& sampler,
+                       Hit& hit) const {
   ++counters_.rays;
   const auto keep = [&](const Hit& candidate) { return keeps(candidate, kind, depth, sampler); };
   return scene_.accel.intersect(ray, hit, HitFilter(keep));
@@ -25,7 +29,9 @@ bool Tracer::intersect(const Ray& ray, RayKind kind, std::uint32_t depth, const 
 
 bool Tracer::occluded(const Ray& ray, std::uint32_t depth, const Sampler& sampler) const {
   ++counters_.rays;
-  const auto keep = [&](const Hit& candidate) { return keeps(candidate, RayKind::shadow, depth, sampler); };
+  const auto keep = [&](const Hit& candidate) {
+    return keeps(candidate, RayKind::shadow, depth, sampler);
+  };
   return scene_.accel.occluded(ray, HitFilter(keep));
 }
 
@@ -46,11 +52,13 @@ Rgb Tracer::escaped(const Vector3& direction, bool camera) const {
   return scene_.lights.environment_radiance(direction);
 }
 
-Rgb Tracer::visible_radiance(const Hit& hit, const LightSample& light, std::uint32_t depth, const Sampler& sampler) const {
-  if (light.infinite) return occluded(spawn_ray(hit, light.wi), depth, sampler) ? Rgb{} : light.radiance;
-  const Ray segment = light.target_normal
-                          ? spawn_segment(hit, light.target, light.target_error, *light.target_normal)
-                          : spawn_segment(hit, light.target);
+Rgb Tracer::visible_radiance(const Hit& hit, const LightSample& light, std::uint32_t depth,
+                             const Sampler& sampler) const {
+  if (light.infinite)
+    return occluded(spawn_ray(hit, light.wi), depth, sampler) ? Rgb{} : light.radiance;
+  const Ray segment = light.target_normal ? spawn_segment(hit, light.target, light.target_error,
+                                                          *light.target_normal)
+                                          : spawn_segment(hit, light.target);
   if (occluded(segment, depth, sampler)) return {};
   if (light.emitter == nullptr || !light.emitter->textured) return light.radiance;
   // The radiance there varies: look at the light's surface itself, past what hides nothing.

@@ -57,7 +57,8 @@ class Tracer {
 
   // Surfaces with opacity below 1 let rays through at random; lights that are not visible let the
   // camera's rays and shadow rays through.
-  [[nodiscard]] bool intersect(const Ray& ray, RayKind kind, std::uint32_t depth, const Sampler& sampler, Hit& hit) const;
+  [[nodiscard]] bool intersect(const Ray& ray, RayKind kind, std::uint32_t depth,
+                               const Sampler& sampler, Hit& hit) const;
   [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t depth, const Sampler& sampler) const;
 
   // Radiance that a hit gives off to where the ray came from, light shapes included.
@@ -68,10 +69,11 @@ class Tracer {
   // Light from a sampled point of a light at a surface, occlusion tested; black when there is none.
   // `pdf_weight`(light sample, pdf of the bsdf) weighs it against other ways to find that light.
   template <class Weight>
-  [[nodiscard]] Rgb direct(const Hit& hit, const Bsdf& bsdf, std::size_t light, std::uint32_t depth, const Sampler& sampler,
-                           const Weight& weight) const {
+  [[nodiscard]] Rgb direct(const Hit& hit, const Bsdf& bsdf, std::size_t light, std::uint32_t depth,
+                           const Sampler& sampler, const Weight& weight) const {
     const std::uint32_t base = dimension::bounce(depth);
-    const auto sample = scene_.lights.sample(light, hit.point, sampler.get_2d(base + dimension::light_point));
+    const auto sample =
+        scene_.lights.sample(light, hit.point, sampler.get_2d(base + dimension::light_point));
     if (!sample || is_black(sample->radiance)) return {};
     const BsdfValue value = evaluate(bsdf, sample->wi);
     if (is_black(value.f_cos)) return {};
@@ -81,13 +83,28 @@ class Tracer {
   }
 
  private:
-  [[nodiscard]] bool keeps(const Hit& hit, RayKind kind, std::uint32_t depth, const Sampler& sampler) const;
+  [[nodiscard]] bool keeps(const Hit& hit, RayKind kind, std::uint32_t depth,
+                           const Sampler& sampler) const;
   [[nodiscard]] Rgb visible_radiance(const Hit& hit, const LightSample& light, std::uint32_t depth,
                                      const Sampler& sampler) const;
 
   const RenderScene& scene_;
   const ir::RenderSettings& settings_;
   RayCounters& counters_;
+};
+
+// Branches of a `.whitted` path that wait. Each one put here is the weaker of two, so few wait at a
+// time; when all places are taken the choice is left to chance. Kept by the worker, as setting it
+// up for every sample would cost more than many samples do.
+struct Branch {
+  Ray ray;
+  Rgb throughput{1, 1, 1};
+  std::uint32_t depth = 0;
+  MediumStack media;
+};
+struct BranchStack {
+  std::array<Branch, 24> branches;
+  std::size_t count = 0;
 };
 
 struct TracedSample {
@@ -98,8 +115,10 @@ struct TracedSample {
 
 // The three methods. `ray.direction` is unit.
 [[nodiscard]] TracedSample trace_path(const Tracer& tracer, const Ray& ray, const Sampler& sampler);
-[[nodiscard]] TracedSample trace_whitted(const Tracer& tracer, const Ray& ray, const Sampler& sampler);
-[[nodiscard]] TracedSample trace_phong(const Tracer& tracer, const Ray& ray, const Sampler& sampler);
+[[nodiscard]] TracedSample trace_whitted(const Tracer& tracer, const Ray& ray,
+                                         const Sampler& sampler, BranchStack& scratch);
+[[nodiscard]] TracedSample trace_phong(const Tracer& tracer, const Ray& ray,
+                                       const Sampler& sampler);
 
 // For the extra layers.
 [[nodiscard]] FirstHit first_hit_of(const Tracer& tracer, const Hit& hit, const Bsdf& bsdf);

@@ -15,32 +15,24 @@ constexpr double sure_share = 1.0 / 64;
 // Up to this many lights every one is asked at every surface; of more, one is chosen by power.
 constexpr std::size_t all_lights = 16;
 
-struct Branch {
-  Ray ray;
-  Rgb throughput{1, 1, 1};
-  std::uint32_t depth = 0;
-  MediumStack media;
-};
-
-// Branches waiting. Each one put here is the weaker of two, so few wait at a time; when all places
-// are taken the choice is left to chance.
-struct Waiting {
-  std::array<Branch, 24> branches;
-  std::size_t count = 0;
-};
-
 class WhittedTracer {
  public:
-  WhittedTracer(const Tracer& tracer, const Sampler& sampler)
-      : tracer_(tracer), scene_(tracer.scene()), sampler_(sampler),
-        max_depth_(static_cast<std::uint64_t>(tracer.settings().max_depth.value_or(std::int64_t{1} << 32))) {}
+  WhittedTracer(const Tracer& tracer, const Sampler& sampler, BranchStack& waiting)
+      : tracer_(tracer),
+        scene_(tracer.scene()),
+        sampler_(sampler),
+        waiting_(waiting),
+        max_depth_(static_cast<std::uint64_t>(
+            tracer.settings().max_depth.value_or(std::int64_t{1} << 32))) {}
 
   TracedSample trace(const Ray& ray) {
+    waiting_.branches[0] = Branch{};
     waiting_.branches[0].ray = ray;
     waiting_.count = 1;
     while (waiting_.count > 0) {
       Branch branch = waiting_.branches[--waiting_.count];
-      while (step(branch)) {}
+      while (step(branch)) {
+      }
     }
     return out_;
   }
@@ -76,7 +68,8 @@ class WhittedTracer {
   void absorb(Branch& branch, double distance) const {
     if (branch.media.empty()) return;
     const Rgb sigma = absorption_of(scene_, branch.media.innermost());
-    branch.throughput *= Rgb(exp(-sigma.r * distance), exp(-sigma.g * distance), exp(-sigma.b * distance));
+    branch.throughput *=
+        Rgb(exp(-sigma.r * distance), exp(-sigma.g * distance), exp(-sigma.b * distance));
   }
 
   [[nodiscard]] Rgb direct(const Branch& branch, const Hit& hit, const Bsdf& bsdf) const {
@@ -88,10 +81,12 @@ class WhittedTracer {
       const double u = sampler_.get_1d(dimension::bounce(branch.depth) + dimension::light_choice);
       const LightTable::Choice choice = lights.choose(u);
       if (choice.probability > 0) {
-        sum = tracer_.direct(hit, bsdf, choice.light, branch.depth, sampler_, whole) * (1 / choice.probability);
+        sum = tracer_.direct(hit, bsdf, choice.light, branch.depth, sampler_, whole) *
+              (1 / choice.probability);
       }
     }
-    for (std::size_t light = many ? lights.first_environment() : 0; light < lights.size(); ++light) {
+    for (std::size_t light = many ? lights.first_environment() : 0; light < lights.size();
+         ++light) {
       // Constant environments cannot be drawn: they are asked in any case.
       if (many && !lights.is_constant_environment(light)) continue;
       sum += tracer_.direct(hit, bsdf, light, branch.depth, sampler_, whole);
@@ -103,7 +98,8 @@ class WhittedTracer {
   bool follow(Branch& branch, const Hit& hit, const Bsdf& bsdf, ir::MaterialId material) {
     SpecularRays rays = specular_rays(bsdf);
     if (rays.count == 0) return false;
-    if (rays.count == 2 && max_component(rays.rays[0].weight) < max_component(rays.rays[1].weight)) {
+    if (rays.count == 2 &&
+        max_component(rays.rays[0].weight) < max_component(rays.rays[1].weight)) {
       std::swap(rays.rays[0], rays.rays[1]);
     }
     const Rgb before = branch.throughput;
@@ -133,12 +129,15 @@ class WhittedTracer {
     return true;
   }
 
-  void advance(Branch& branch, const SpecularRay& next, const Hit& hit, const Bsdf& bsdf, ir::MaterialId material) const {
+  void advance(Branch& branch, const SpecularRay& next, const Hit& hit, const Bsdf& bsdf,
+               ir::MaterialId material) const {
     branch.throughput *= next.weight;
     branch.ray = spawn_ray(hit, next.wi);
     if (next.transmitted) {
-      if (bsdf.entering) branch.media.enter(material);
-      else branch.media.leave(material);
+      if (bsdf.entering)
+        branch.media.enter(material);
+      else
+        branch.media.leave(material);
     }
     ++branch.depth;
   }
@@ -150,15 +149,16 @@ class WhittedTracer {
   const Tracer& tracer_;
   const RenderScene& scene_;
   const Sampler& sampler_;
+  BranchStack& waiting_;
   std::uint64_t max_depth_;
-  Waiting waiting_;
   TracedSample out_;
 };
 
 }  // namespace
 
-TracedSample trace_whitted(const Tracer& tracer, const Ray& ray, const Sampler& sampler) {
-  return WhittedTracer(tracer, sampler).trace(ray);
+TracedSample trace_whitted(const Tracer& tracer, const Ray& ray, const Sampler& sampler,
+                           BranchStack& scratch) {
+  return WhittedTracer(tracer, sampler, scratch).trace(ray);
 }
 
 }  // namespace scenec::backend

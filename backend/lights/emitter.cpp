@@ -10,7 +10,9 @@ namespace {
 
 // Coordinates of a point made of `origin` and three terms carry a few roundings of their largest.
 Vector3 point_error(const Emitter& e) {
-  return (abs(as_vector(e.origin)) + abs(e.a) + abs(e.b) + abs(e.c) + Vector3{e.radius, e.radius, e.radius}) * gamma(8);
+  return (abs(as_vector(e.origin)) + abs(e.a) + abs(e.b) + abs(e.c) +
+          Vector3{e.radius, e.radius, e.radius}) *
+         gamma(8);
 }
 
 struct AreaPoint {
@@ -24,7 +26,8 @@ AreaPoint ellipsoid_point(const Emitter& e, Sample2 u) {
   const Vector3 n = cross(e.b, e.c) * w.x() + cross(e.c, e.a) * w.y() + cross(e.a, e.b) * w.z();
   // dA = |cofactor(M) w| dw.
   const double jacobian = length(n);
-  return {e.origin + (e.a * w.x() + e.b * w.y() + e.c * w.z()), n, jacobian > 0 ? pdf_uniform_sphere() / jacobian : 0};
+  return {e.origin + (e.a * w.x() + e.b * w.y() + e.c * w.z()), n,
+          jacobian > 0 ? pdf_uniform_sphere() / jacobian : 0};
 }
 
 AreaPoint tube_point(const Emitter& e, Sample2 u) {
@@ -32,7 +35,8 @@ AreaPoint tube_point(const Emitter& e, Sample2 u) {
   const Vector3 tangent = e.b * angle.cos - e.a * angle.sin;
   const Vector3 n = cross(tangent, e.c);
   const double jacobian = 2 * pi * length(n);
-  return {e.origin + (e.a * angle.cos + e.b * angle.sin + e.c * u.v), n, jacobian > 0 ? 1 / jacobian : 0};
+  return {e.origin + (e.a * angle.cos + e.b * angle.sin + e.c * u.v), n,
+          jacobian > 0 ? 1 / jacobian : 0};
 }
 
 AreaPoint area_point(const Emitter& e, Sample2 u) {
@@ -41,7 +45,8 @@ AreaPoint area_point(const Emitter& e, Sample2 u) {
       const Sample2 weights = sample_uniform_triangle(u);
       return {e.origin + (e.a * weights.u + e.b * weights.v), cross(e.a, e.b), 1 / e.area};
     }
-    case EmitterShape::parallelogram: return {e.origin + (e.a * u.u + e.b * u.v), cross(e.a, e.b), 1 / e.area};
+    case EmitterShape::parallelogram:
+      return {e.origin + (e.a * u.u + e.b * u.v), cross(e.a, e.b), 1 / e.area};
     case EmitterShape::ellipse: {
       const Sample2 p = sample_concentric_disk(u);
       return {e.origin + (e.a * p.u + e.b * p.v), cross(e.a, e.b), 1 / e.area};
@@ -50,8 +55,10 @@ AreaPoint area_point(const Emitter& e, Sample2 u) {
       const Vector3 w = sample_uniform_sphere(u).vector();
       return {e.origin + w * e.radius, w, 1 / e.area};
     }
-    case EmitterShape::ellipsoid: return ellipsoid_point(e, u);
-    case EmitterShape::tube: return tube_point(e, u);
+    case EmitterShape::ellipsoid:
+      return ellipsoid_point(e, u);
+    case EmitterShape::tube:
+      return tube_point(e, u);
   }
   return {};
 }
@@ -59,7 +66,8 @@ AreaPoint area_point(const Emitter& e, Sample2 u) {
 // The density per area at a point the emitter was hit at.
 double area_pdf(const Emitter& e, const Point3& point, const UnitVector3& normal) {
   if (e.shape == EmitterShape::ellipsoid) {
-    // |cofactor(M) w| from the unit normal n = cofactor(M) w / |...|: |M^T n| |cofactor(M) w| = det.
+    // |cofactor(M) w| from the unit normal n = cofactor(M) w / |...|: |M^T n| |cofactor(M) w| =
+    // det.
     const double det = std::fabs(dot(cross(e.a, e.b), e.c));
     const Vector3 back{dot(e.a, normal), dot(e.b, normal), dot(e.c, normal)};
     return pdf_uniform_sphere() * length(back) / det;
@@ -99,7 +107,8 @@ EmitterSample cone_sample(const Emitter& e, const Point3& from, double sin2, Sam
   EmitterSample s;
   s.wi = frame.world_of(local);
   const double sine2 = local.x() * local.x() + local.y() * local.y();
-  const double along = std::sqrt(distance2) * local.z() - std::sqrt(std::fmax(0, e.radius * e.radius - distance2 * sine2));
+  const double along = std::sqrt(distance2) * local.z() -
+                       std::sqrt(std::fmax(0, e.radius * e.radius - distance2 * sine2));
   s.normal = normalized(from + s.wi.vector() * along - e.origin, -s.wi);
   s.point = e.origin + s.normal.vector() * e.radius;
   s.pdf = pdf_uniform_cone(sin2);
@@ -110,10 +119,18 @@ EmitterSample cone_sample(const Emitter& e, const Point3& from, double sin2, Sam
 
 void measure(Emitter& e) {
   switch (e.shape) {
-    case EmitterShape::triangle: e.area = length(cross(e.a, e.b)) / 2; break;
-    case EmitterShape::parallelogram: e.area = length(cross(e.a, e.b)); break;
-    case EmitterShape::ellipse: e.area = pi * length(cross(e.a, e.b)); break;
-    case EmitterShape::sphere: e.area = 4 * pi * e.radius * e.radius; break;
+    case EmitterShape::triangle:
+      e.area = length(cross(e.a, e.b)) / 2;
+      break;
+    case EmitterShape::parallelogram:
+      e.area = length(cross(e.a, e.b));
+      break;
+    case EmitterShape::ellipse:
+      e.area = pi * length(cross(e.a, e.b));
+      break;
+    case EmitterShape::sphere:
+      e.area = 4 * pi * e.radius * e.radius;
+      break;
     case EmitterShape::ellipsoid:
     case EmitterShape::tube: {
       // Only weighs the choice between lights: the mean over a fixed grid will do.
@@ -150,7 +167,8 @@ std::optional<EmitterSample> sample_emitter(const Emitter& e, const Point3& from
   return s;
 }
 
-double pdf_emitter(const Emitter& e, const Point3& from, const Point3& point, const UnitVector3& normal) {
+double pdf_emitter(const Emitter& e, const Point3& from, const Point3& point,
+                   const UnitVector3& normal) {
   if (e.shape == EmitterShape::sphere) {
     if (const auto sin2 = cone_of(e, from)) return pdf_uniform_cone(*sin2);
   }

@@ -5,7 +5,8 @@
 // Method:     uniform in area, except spheres seen from outside: uniform in the cone they fill, by
 //             the form of 1 - cos that keeps its digits for far ones (numerics anchors, row 7).
 // Error:      the sampled point's distance from the surface is bounded by `error`.
-// Degenerate: reference in the plane of a flat piece: density 0, no sample; reference on or inside a
+// Degenerate: reference in the plane of a flat piece: density 0, no sample; reference on or inside
+// a
 //             sphere: uniform in area.
 // Proof:      tests/unit/backend/lights/emitter_test.cpp (P03-P05, P08).
 #pragma once
@@ -54,7 +55,8 @@ struct EmitterSample {
   UnitVector3 wi;      // from the reference point
   double pdf = 0;      // per solid angle at the reference point
 };
-[[nodiscard]] std::optional<EmitterSample> sample_emitter(const Emitter& emitter, const Point3& from, Sample2 u);
+[[nodiscard]] std::optional<EmitterSample> sample_emitter(const Emitter& emitter,
+                                                          const Point3& from, Sample2 u);
 // The density with which sample_emitter gives the direction from `from` to `point` on the emitter,
 // whose outer normal there is `normal`.
 [[nodiscard]] double pdf_emitter(const Emitter& emitter, const Point3& from, const Point3& point,

@@ -34,7 +34,8 @@ double accumulate_and_normalise(double* cumulative, std::size_t count) {
 
 }  // namespace
 
-Environment::Environment(const ir::EnvironmentLight& light, std::shared_ptr<const DecodedImage> image)
+Environment::Environment(const ir::EnvironmentLight& light,
+                         std::shared_ptr<const DecodedImage> image)
     : image_(std::move(image)) {
   factor_ = Rgb(light.color.r, light.color.g, light.color.b) * light.gain;
   if (light.constant) factor_ *= Rgb(light.constant->r, light.constant->g, light.constant->b);
@@ -59,7 +60,8 @@ void Environment::build_tables() {
   for (std::size_t y = 0; y < height_; ++y) {
     const double sine = sin(pi * (static_cast<double>(y) + 0.5) / static_cast<double>(height_));
     for (std::size_t x = 0; x < width_; ++x) {
-      const Rgb c = texel(*image_, static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), srgb_).color;
+      const Rgb c =
+          texel(*image_, static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), srgb_).color;
       bright[y * width_ + x] = std::fmax(0, luminance(c * factor_));
       sum += c * sine;
     }
@@ -105,7 +107,8 @@ Environment::Choice Environment::sample(Sample2 u) const {
   if (rows_.empty()) return {};
   const Step row = find_step(rows_.data(), height_, u.v);
   const Step column = find_step(&columns_[row.index * (width_ + 1)], width_, u.u);
-  const double across = (static_cast<double>(column.index) + column.within) / static_cast<double>(width_);
+  const double across =
+      (static_cast<double>(column.index) + column.within) / static_cast<double>(width_);
   const double down = (static_cast<double>(row.index) + row.within) / static_cast<double>(height_);
   const SinCos azimuth = sin_cos(2 * pi * (across - 0.5));
   const SinCos polar = sin_cos(pi * down);
@@ -122,7 +125,8 @@ double Environment::pdf(const Vector3& direction) const {
   if (rows_.empty()) return 0;
   const Sample2 uv = uv_of(direction);
   const auto index = [](double t, std::size_t n) {
-    return std::min(static_cast<std::size_t>(std::clamp(t, 0.0, 1.0) * static_cast<double>(n)), n - 1);
+    return std::min(static_cast<std::size_t>(std::clamp(t, 0.0, 1.0) * static_cast<double>(n)),
+                    n - 1);
   };
   const std::size_t y = index(1 - uv.v, height_);
   const std::size_t x = index(uv.u, width_);

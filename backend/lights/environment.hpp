@@ -1,5 +1,5 @@
-// Light from infinitely far away: constant, or a latitude-longitude picture chosen from by brightness.
-// The middle of the picture lies towards -z, its right towards +x, its top towards +y.
+// Light from infinitely far away: constant, or a latitude-longitude picture chosen from by
+// brightness. The middle of the picture lies towards -z, its right towards +x, its top towards +y.
 //
 // Domain:     pictures of any size; any unit direction.
 // Method:     a table of rows and one a row of columns, by the largest luminance of a texel and its

@@ -8,13 +8,21 @@
 namespace scenec::backend {
 namespace {
 
-Rgb rgb_of(const ir::Color& c) { return {c.r, c.g, c.b}; }
-Point3 point_of(const ir::Point3& p) { return {p.x, p.y, p.z}; }
-UnitVector3 unit_of(const ir::Direction& d) { return normalized(Vector3{d.x, d.y, d.z}); }
+Rgb rgb_of(const ir::Color& c) {
+  return {c.r, c.g, c.b};
+}
+Point3 point_of(const ir::Point3& p) {
+  return {p.x, p.y, p.z};
+}
+UnitVector3 unit_of(const ir::Direction& d) {
+  return normalized(Vector3{d.x, d.y, d.z});
+}
 
 template <class L>
 Rgb intensity_of(const L& light) {
-  return rgb_of(light.color) * (light.intensity ? *light.intensity : light.power ? light.power->value / (4 * pi) : 0);
+  return rgb_of(light.color) * (light.intensity ? *light.intensity
+                                : light.power   ? light.power->value / (4 * pi)
+                                                : 0);
 }
 
 }  // namespace
@@ -67,10 +75,13 @@ void LightTable::finish(double scene_radius) {
     probability_.push_back(luminance(l.value) * factor);
   }
   for (const Emitter& e : emitters) {
-    probability_.push_back(e.area > 0 ? luminance(e.radiance) * e.area * pi * (e.two_sided ? 2 : 1) : 0);
+    probability_.push_back(e.area > 0 ? luminance(e.radiance) * e.area * pi * (e.two_sided ? 2 : 1)
+                                      : 0);
   }
-  // Even light from everywhere is found best by the surface's own directions: aiming at it adds noise.
-  for (const Environment& e : environments) probability_.push_back(e.is_constant() ? 0 : luminance(e.mean()) * pi * disk);
+  // Even light from everywhere is found best by the surface's own directions: aiming at it adds
+  // noise.
+  for (const Environment& e : environments)
+    probability_.push_back(e.is_constant() ? 0 : luminance(e.mean()) * pi * disk);
   double sum = 0;
   for (double& p : probability_) {
     if (!(p > 0) || !std::isfinite(p)) p = 0;
@@ -95,7 +106,8 @@ LightTable::Choice LightTable::choose(double u) const {
   return {light, probability_[light]};
 }
 
-std::optional<LightSample> LightTable::sample_delta(const DeltaLight& light, const Point3& from) const {
+std::optional<LightSample> LightTable::sample_delta(const DeltaLight& light,
+                                                    const Point3& from) const {
   LightSample s;
   s.delta = true;
   if (light.kind == DeltaLight::Kind::directional) {
@@ -114,7 +126,8 @@ std::optional<LightSample> LightTable::sample_delta(const DeltaLight& light, con
   return s;
 }
 
-std::optional<LightSample> LightTable::sample(std::size_t light, const Point3& from, Sample2 u) const {
+std::optional<LightSample> LightTable::sample(std::size_t light, const Point3& from,
+                                              Sample2 u) const {
   if (light < deltas.size()) return sample_delta(deltas[light], from);
   light -= deltas.size();
   LightSample s;

@@ -5,8 +5,8 @@
 // Method:     cumulative table, binary search.
 // Error:      probabilities sum to 1 within n u.
 // Degenerate: no lights, or no power: nothing is drawn. A point light at the reference point itself
-//             gives no sample (P09). Constant environments are never drawn, as every direction finds
-//             them; `sample` serves them when asked by number.
+//             gives no sample (P09). Constant environments are never drawn, as every direction
+//             finds them; `sample` serves them when asked by number.
 // Proof:      tests/unit/backend/lights/light_table_test.cpp.
 #pragma once
 
@@ -35,10 +35,10 @@ struct DeltaLight {
 [[nodiscard]] double spot_share(const DeltaLight& light, const Vector3& travel);
 
 struct LightSample {
-  Vector3 wi;           // unit, to the light
-  Rgb radiance;         // arriving, before visibility; for lights without extent: irradiance at wi
-  double pdf = 1;       // per solid angle, the choice of light left out
-  bool delta = false;   // no other way to meet this light
+  Vector3 wi;          // unit, to the light
+  Rgb radiance;        // arriving, before visibility; for lights without extent: irradiance at wi
+  double pdf = 1;      // per solid angle, the choice of light left out
+  bool delta = false;  // no other way to meet this light
   bool infinite = false;
   Point3 target;
   Vector3 target_error;
@@ -65,7 +65,8 @@ class LightTable {
     double probability = 0;  // 0: none
   };
   [[nodiscard]] Choice choose(double u) const;
-  [[nodiscard]] std::optional<LightSample> sample(std::size_t light, const Point3& from, Sample2 u) const;
+  [[nodiscard]] std::optional<LightSample> sample(std::size_t light, const Point3& from,
+                                                  Sample2 u) const;
   // Density per solid angle, with the choice of light, of hitting this emitter's point.
   [[nodiscard]] double pdf_of_emitter(std::size_t emitter, const Point3& from, const Point3& point,
                                       const UnitVector3& normal) const;
@@ -73,7 +74,8 @@ class LightTable {
   [[nodiscard]] Rgb environment_radiance(const Vector3& direction) const;
 
  private:
-  [[nodiscard]] std::optional<LightSample> sample_delta(const DeltaLight& light, const Point3& from) const;
+  [[nodiscard]] std::optional<LightSample> sample_delta(const DeltaLight& light,
+                                                        const Point3& from) const;
 
   std::vector<double> probability_;  // deltas, emitters, environments
   std::vector<double> cumulative_;

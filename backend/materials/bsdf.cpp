@@ -9,7 +9,9 @@
 namespace scenec::backend {
 namespace {
 
-double mean(const Rgb& c) { return (c.r + c.g + c.b) / 3; }
+double mean(const Rgb& c) {
+  return (c.r + c.g + c.b) / 3;
+}
 
 // Reflectance of metal or coat at a facet.
 Rgb facet_reflectance(const Bsdf& b, double cos_i) {
@@ -24,7 +26,8 @@ Rgb facet_reflectance(const Bsdf& b, double cos_i) {
 // The diffuse base seen through the coat, without its albedo and the 1/pi: what the coat lets in
 // from wi times what it lets out.
 Rgb through_coat(const Bsdf& b, double cos_wi) {
-  const Rgb in = Rgb(1, 1, 1) - b.albedo->directional(cos_wi, b.alpha).of(b.specular) * b.compensation;
+  const Rgb in =
+      Rgb(1, 1, 1) - b.albedo->directional(cos_wi, b.alpha).of(b.specular) * b.compensation;
   // The compensation is that of the viewer's direction: for bright coats it may pass 1 elsewhere.
   return Rgb(std::fmax(0, in.r), std::fmax(0, in.g), std::fmax(0, in.b)) * b.coat_out;
 }
@@ -74,11 +77,14 @@ BsdfValue evaluate_rough_glass(const Bsdf& b, const Vector3& wi) {
   if (reflects) return {Rgb::gray(f * density * g2 / (4 * b.wo.z)), f * visible / (4 * o)};
   const double denominator = (i + o / eta) * (i + o / eta);
   if (!(denominator > 0)) return {};
-  const double value = (1 - f) * density * g2 * std::fabs(i * o) / (b.wo.z * denominator) / (eta * eta);
+  const double value =
+      (1 - f) * density * g2 * std::fabs(i * o) / (b.wo.z * denominator) / (eta * eta);
   return {b.specular * value, (1 - f) * visible * std::fabs(i) / denominator};
 }
 
-BsdfSample absorbed() { return {}; }
+BsdfSample absorbed() {
+  return {};
+}
 
 // A reflected direction (frame coordinates) made a sample, unless it is below a surface.
 BsdfSample reflection(const Bsdf& b, const Vector3& wi, const Rgb& weight) {
@@ -166,7 +172,8 @@ BsdfSample sample_phong(const Bsdf& b, double lobe, Sample2 u) {
     const double sin_alpha = std::sqrt(std::fmax(0, 1 - cos_alpha * cos_alpha));
     const SinCos phi = sin_cos(2 * pi * u.v);
     const Frame about = frame_about(UnitVector3::assume_unit(reflected(b.wo, {0, 0, 1})));
-    return combined(b, about.world_of(Vector3{sin_alpha * phi.cos, sin_alpha * phi.sin, cos_alpha}));
+    return combined(b,
+                    about.world_of(Vector3{sin_alpha * phi.cos, sin_alpha * phi.sin, cos_alpha}));
   }
   if (lobe < p[0] + p[1] + p[2] || !(p[3] > 0)) {
     return p[2] > 0 ? specular_reflection(b, b.reflect / p[2]) : absorbed();
@@ -178,7 +185,8 @@ BsdfSample sample_phong(const Bsdf& b, double lobe, Sample2 u) {
 
 BsdfSample sample_coat(const Bsdf& b, double lobe, Sample2 u) {
   if (lobe >= b.lobe_share) return combined(b, sample_cosine_hemisphere(u).vector());
-  if (b.kind == BsdfKind::smooth_coat) return specular_reflection(b, facet_reflectance(b, b.wo.z) / b.lobe_share);
+  if (b.kind == BsdfKind::smooth_coat)
+    return specular_reflection(b, facet_reflectance(b, b.wo.z) / b.lobe_share);
   return combined(b, reflected(b.wo, sample_ggx_normal(b.wo, b.alpha, u)));
 }
 
@@ -194,7 +202,9 @@ void finish(Bsdf& b) {
   if (b.kind == BsdfKind::coat || b.kind == BsdfKind::smooth_coat) {
     const Rgb out = b.albedo->directional(b.wo.z, b.alpha).of(b.specular) * b.compensation;
     const Rgb average = b.albedo->average(b.alpha).of(b.specular) * b.compensation;
-    const auto share = [](double o, double a) { return a < 1 ? std::fmax(0, 1 - o) / (1 - a) : 0.0; };
+    const auto share = [](double o, double a) {
+      return a < 1 ? std::fmax(0, 1 - o) / (1 - a) : 0.0;
+    };
     b.coat_out = {share(out.r, average.r), share(out.g, average.g), share(out.b, average.b)};
     const double coat = mean(out);
     const double base = mean(b.diffuse) * std::fmax(0, 1 - coat);
@@ -203,15 +213,16 @@ void finish(Bsdf& b) {
   if (b.kind == BsdfKind::phong) {
     // Weights above 1 in all would gain energy: they are scaled down together, a channel each.
     const Rgb sum = b.diffuse + b.specular + b.reflect + b.refract;
-    const Rgb scale{sum.r > 1 ? 1 / sum.r : 1, sum.g > 1 ? 1 / sum.g : 1, sum.b > 1 ? 1 / sum.b : 1};
+    const Rgb scale{sum.r > 1 ? 1 / sum.r : 1, sum.g > 1 ? 1 / sum.g : 1,
+                    sum.b > 1 ? 1 / sum.b : 1};
     for (Rgb* lobe : {&b.diffuse, &b.specular, &b.reflect, &b.refract}) *lobe *= scale;
     const double total = mean(b.diffuse) + mean(b.specular) + mean(b.reflect) + mean(b.refract);
     if (!(total > 0)) {
       b.kind = BsdfKind::none;
       return;
     }
-    b.lobe_probability = {mean(b.diffuse) / total, mean(b.specular) / total, mean(b.reflect) / total,
-                          mean(b.refract) / total};
+    b.lobe_probability = {mean(b.diffuse) / total, mean(b.specular) / total,
+                          mean(b.reflect) / total, mean(b.refract) / total};
   }
 }
 
@@ -220,13 +231,16 @@ bool has_smooth_part(const Bsdf& b) {
     case BsdfKind::none:
     case BsdfKind::mirror:
     case BsdfKind::glass:
-    case BsdfKind::metal: return false;
-    case BsdfKind::phong: return b.lobe_probability[0] > 0 || b.lobe_probability[1] > 0;
+    case BsdfKind::metal:
+      return false;
+    case BsdfKind::phong:
+      return b.lobe_probability[0] > 0 || b.lobe_probability[1] > 0;
     case BsdfKind::diffuse:
     case BsdfKind::rough_glass:
     case BsdfKind::rough_metal:
     case BsdfKind::coat:
-    case BsdfKind::smooth_coat: return true;
+    case BsdfKind::smooth_coat:
+      return true;
   }
   return false;
 }
@@ -239,32 +253,47 @@ BsdfValue evaluate(const Bsdf& b, const Vector3& wi_world) {
   }
   if (!(wi.z > 0) || !(side > 0)) return {};
   switch (b.kind) {
-    case BsdfKind::diffuse: return evaluate_diffuse(b.diffuse, wi.z, 1);
-    case BsdfKind::phong: return evaluate_phong(b, wi);
-    case BsdfKind::rough_metal: return evaluate_facets(b, wi);
+    case BsdfKind::diffuse:
+      return evaluate_diffuse(b.diffuse, wi.z, 1);
+    case BsdfKind::phong:
+      return evaluate_phong(b, wi);
+    case BsdfKind::rough_metal:
+      return evaluate_facets(b, wi);
     case BsdfKind::coat: {
       BsdfValue value = evaluate_facets(b, wi);
       value.pdf *= b.lobe_share;
-      const BsdfValue base = evaluate_diffuse(b.diffuse * through_coat(b, wi.z), wi.z, 1 - b.lobe_share);
+      const BsdfValue base =
+          evaluate_diffuse(b.diffuse * through_coat(b, wi.z), wi.z, 1 - b.lobe_share);
       return {value.f_cos + base.f_cos, value.pdf + base.pdf};
     }
-    case BsdfKind::smooth_coat: return evaluate_diffuse(b.diffuse * through_coat(b, wi.z), wi.z, 1 - b.lobe_share);
-    default: return {};
+    case BsdfKind::smooth_coat:
+      return evaluate_diffuse(b.diffuse * through_coat(b, wi.z), wi.z, 1 - b.lobe_share);
+    default:
+      return {};
   }
 }
 
 BsdfSample sample_bsdf(const Bsdf& b, double lobe, Sample2 u) {
   switch (b.kind) {
-    case BsdfKind::none: return absorbed();
-    case BsdfKind::diffuse: return sample_diffuse(b, u);
-    case BsdfKind::phong: return sample_phong(b, lobe, u);
-    case BsdfKind::mirror: return specular_reflection(b, b.specular);
-    case BsdfKind::metal: return specular_reflection(b, facet_reflectance(b, b.wo.z));
-    case BsdfKind::glass: return sample_glass(b, lobe);
-    case BsdfKind::rough_glass: return sample_rough_glass(b, lobe, u);
-    case BsdfKind::rough_metal: return combined(b, reflected(b.wo, sample_ggx_normal(b.wo, b.alpha, u)));
+    case BsdfKind::none:
+      return absorbed();
+    case BsdfKind::diffuse:
+      return sample_diffuse(b, u);
+    case BsdfKind::phong:
+      return sample_phong(b, lobe, u);
+    case BsdfKind::mirror:
+      return specular_reflection(b, b.specular);
+    case BsdfKind::metal:
+      return specular_reflection(b, facet_reflectance(b, b.wo.z));
+    case BsdfKind::glass:
+      return sample_glass(b, lobe);
+    case BsdfKind::rough_glass:
+      return sample_rough_glass(b, lobe, u);
+    case BsdfKind::rough_metal:
+      return combined(b, reflected(b.wo, sample_ggx_normal(b.wo, b.alpha, u)));
     case BsdfKind::coat:
-    case BsdfKind::smooth_coat: return sample_coat(b, lobe, u);
+    case BsdfKind::smooth_coat:
+      return sample_coat(b, lobe, u);
   }
   return absorbed();
 }
@@ -272,41 +301,55 @@ BsdfSample sample_bsdf(const Bsdf& b, double lobe, Sample2 u) {
 SpecularRays specular_rays(const Bsdf& b) {
   SpecularRays out;
   const auto add = [&](const BsdfSample& s) {
-    if (!is_black(s.weight)) out.rays[static_cast<std::size_t>(out.count++)] = {s.wi, s.weight, s.transmitted};
+    if (!is_black(s.weight))
+      out.rays[static_cast<std::size_t>(out.count++)] = {s.wi, s.weight, s.transmitted};
   };
   switch (b.kind) {
-    case BsdfKind::mirror: add(specular_reflection(b, b.specular)); break;
+    case BsdfKind::mirror:
+      add(specular_reflection(b, b.specular));
+      break;
     case BsdfKind::metal:
-    case BsdfKind::smooth_coat: add(specular_reflection(b, facet_reflectance(b, b.wo.z))); break;
+    case BsdfKind::smooth_coat:
+      add(specular_reflection(b, facet_reflectance(b, b.wo.z)));
+      break;
     case BsdfKind::glass: {
       const DielectricFresnel f = fresnel_dielectric(b.wo.z, b.ior);
-      if (f.reflectance < 1) add(specular_transmission(b, b.specular * (1 - f.reflectance), f.cos_t));
+      if (f.reflectance < 1)
+        add(specular_transmission(b, b.specular * (1 - f.reflectance), f.cos_t));
       if (f.reflectance > 0) add(specular_reflection(b, Rgb::gray(f.reflectance)));
       break;
     }
     case BsdfKind::phong: {
       const DielectricFresnel f = fresnel_dielectric(b.wo.z, b.ior);
       Rgb mirrored = b.reflect;
-      if (f.cos_t == 0) mirrored += b.refract;
-      else add(specular_transmission(b, b.refract, f.cos_t));
+      if (f.cos_t == 0)
+        mirrored += b.refract;
+      else
+        add(specular_transmission(b, b.refract, f.cos_t));
       add(specular_reflection(b, mirrored));
       break;
     }
-    default: break;
+    default:
+      break;
   }
   return out;
 }
 
 Rgb albedo_of(const Bsdf& b) {
   switch (b.kind) {
-    case BsdfKind::none: return {};
-    case BsdfKind::diffuse: return b.diffuse;
-    case BsdfKind::phong: return b.diffuse + b.specular + b.reflect + b.refract;
+    case BsdfKind::none:
+      return {};
+    case BsdfKind::diffuse:
+      return b.diffuse;
+    case BsdfKind::phong:
+      return b.diffuse + b.specular + b.reflect + b.refract;
     case BsdfKind::mirror:
     case BsdfKind::glass:
-    case BsdfKind::rough_glass: return b.specular;
+    case BsdfKind::rough_glass:
+      return b.specular;
     case BsdfKind::metal:
-    case BsdfKind::rough_metal: return facet_reflectance(b, b.wo.z);
+    case BsdfKind::rough_metal:
+      return facet_reflectance(b, b.wo.z);
     case BsdfKind::coat:
     case BsdfKind::smooth_coat: {
       const Rgb coat = b.albedo->directional(b.wo.z, b.alpha).of(b.specular) * b.compensation;

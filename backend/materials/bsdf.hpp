@@ -1,8 +1,8 @@
 // The scattering of light at one point of one material, after textures and mixes are resolved: a
 // small value, no allocation, a switch on its kind.
 //
-// Domain:     the viewer is on the outer side of `frame.z` and of `geometric` (both are turned to it).
-// Method:     lobes: Lambert; modified Phong (Lafortune and Willems 1994) normalised by
+// Domain:     the viewer is on the outer side of `frame.z` and of `geometric` (both are turned to
+// it). Method:     lobes: Lambert; modified Phong (Lafortune and Willems 1994) normalised by
 //             (n + 2) / 2 pi; GGX with Smith's height-correlated shadowing and compensation of
 //             multiple scattering (Turquin 2019); Walter et al. 2007 for rough glass; diffuse under
 //             a coat scaled by what the coat lets in and out (Kulla and Conty 2017). Radiance that
@@ -24,25 +24,34 @@
 namespace scenec::backend {
 
 enum class BsdfKind : std::uint8_t {
-  none, diffuse, phong, mirror, glass, rough_glass, metal, rough_metal, coat, smooth_coat,
+  none,
+  diffuse,
+  phong,
+  mirror,
+  glass,
+  rough_glass,
+  metal,
+  rough_metal,
+  coat,
+  smooth_coat,
 };
 
 struct Bsdf {
   BsdfKind kind = BsdfKind::none;
-  bool entering = true;      // the viewer is outside: crossing the surface enters the body
-  Frame frame;               // z: shading normal, turned to the viewer
-  UnitVector3 geometric;     // turned to the viewer
-  Vector3 wo;                // to the viewer, in the frame; wo.z > 0
-  Rgb diffuse;               // albedo of the matt part
-  Rgb specular;              // phong: lobe; mirror: reflectance; glass: tint; metal and coat: f0
-  Rgb reflect, refract;      // phong: weights of the mirror and the refracted direction
-  Rgb eta, k;                // metal: measured; eta 0 says that f0 is used
+  bool entering = true;   // the viewer is outside: crossing the surface enters the body
+  Frame frame;            // z: shading normal, turned to the viewer
+  UnitVector3 geometric;  // turned to the viewer
+  Vector3 wo;             // to the viewer, in the frame; wo.z > 0
+  Rgb diffuse;            // albedo of the matt part
+  Rgb specular;           // phong: lobe; mirror: reflectance; glass: tint; metal and coat: f0
+  Rgb reflect, refract;   // phong: weights of the mirror and the refracted direction
+  Rgb eta, k;             // metal: measured; eta 0 says that f0 is used
   double alpha = 0;
-  double exponent = 1;       // phong
-  double ior = 1;            // behind the surface over before it, as seen from the viewer
-  Rgb compensation;          // metal, coat: factor for multiple scattering
-  Rgb coat_out;              // coat: what the coat lets out towards the viewer, over its mean
-  double lobe_share = 1;     // probability of the specular lobe (coat), of the phong lobe's group
+  double exponent = 1;    // phong
+  double ior = 1;         // behind the surface over before it, as seen from the viewer
+  Rgb compensation;       // metal, coat: factor for multiple scattering
+  Rgb coat_out;           // coat: what the coat lets out towards the viewer, over its mean
+  double lobe_share = 1;  // probability of the specular lobe (coat), of the phong lobe's group
   std::array<double, 4> lobe_probability{};  // phong: diffuse, specular, reflect, refract
   const GgxAlbedo* albedo = nullptr;
 };
@@ -58,9 +67,9 @@ struct BsdfValue {
 [[nodiscard]] BsdfValue evaluate(const Bsdf& bsdf, const Vector3& wi_world);
 
 struct BsdfSample {
-  Vector3 wi;          // world, unit
-  Rgb weight;          // f * |cos wi| / pdf; black: absorbed
-  double pdf = 0;      // meaningless for exactly specular lobes
+  Vector3 wi;      // world, unit
+  Rgb weight;      // f * |cos wi| / pdf; black: absorbed
+  double pdf = 0;  // meaningless for exactly specular lobes
   bool specular = false;
   bool transmitted = false;
   double eta_scale = 1;  // the square of the relative index that radiance was scaled by, inverted

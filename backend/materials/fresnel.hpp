@@ -61,11 +61,14 @@ struct DielectricFresnel {
 }
 
 // `w` mirrored at `n`: both point away from the surface.
-[[nodiscard]] inline Vector3 reflected(const Vector3& w, const Vector3& n) { return n * (2 * dot(w, n)) - w; }
+[[nodiscard]] inline Vector3 reflected(const Vector3& w, const Vector3& n) {
+  return n * (2 * dot(w, n)) - w;
+}
 
 // The direction behind the interface; precondition: cos_i = dot(w, n) >= 0 and cos_t > 0 as from
 // fresnel_dielectric.
-[[nodiscard]] inline Vector3 refracted(const Vector3& w, const Vector3& n, double cos_i, double eta, double cos_t) {
+[[nodiscard]] inline Vector3 refracted(const Vector3& w, const Vector3& n, double cos_i, double eta,
+                                       double cos_t) {
   if (eta == 1) return -w;
   return n * (cos_i / eta - cos_t) - w / eta;
 }

@@ -80,13 +80,17 @@ GgxAlbedo::GgxAlbedo() {
 GgxAlbedo::Terms GgxAlbedo::directional(double mu, double alpha) const {
   const Cell r = cell_of(std::sqrt(alpha), roughnesses);
   const Cell c = cell_of(mu, cosines);
-  const auto at = [&](int row, int column) { return table_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]; };
-  return lerp(lerp(at(r.low, c.low), at(r.low, c.high), c.t), lerp(at(r.high, c.low), at(r.high, c.high), c.t), r.t);
+  const auto at = [&](int row, int column) {
+    return table_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+  };
+  return lerp(lerp(at(r.low, c.low), at(r.low, c.high), c.t),
+              lerp(at(r.high, c.low), at(r.high, c.high), c.t), r.t);
 }
 
 GgxAlbedo::Terms GgxAlbedo::average(double alpha) const {
   const Cell r = cell_of(std::sqrt(alpha), roughnesses);
-  return lerp(average_[static_cast<std::size_t>(r.low)], average_[static_cast<std::size_t>(r.high)], r.t);
+  return lerp(average_[static_cast<std::size_t>(r.low)], average_[static_cast<std::size_t>(r.high)],
+              r.t);
 }
 
 }  // namespace scenec::backend

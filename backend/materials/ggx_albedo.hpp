@@ -19,8 +19,8 @@ namespace scenec::backend {
 class GgxAlbedo {
  public:
   struct Terms {
-    double base = 1;   // coefficient of f0
-    double share = 0;  // what even a black f0 reflects
+    double base = 1;                                            // coefficient of f0
+    double share = 0;                                           // what even a black f0 reflects
     [[nodiscard]] double full() const { return base + share; }  // for f0 = 1
     [[nodiscard]] Rgb of(const Rgb& f0) const { return f0 * base + Rgb::gray(share); }
   };

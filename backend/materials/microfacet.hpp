@@ -1,4 +1,5 @@
-// The GGX distribution of facets and Smith's height-correlated shadowing, in the shading frame (+z).
+// The GGX distribution of facets and Smith's height-correlated shadowing, in the shading frame
+// (+z).
 //
 // Domain:     alpha in [1e-3, 1]; unit directions.
 // Method:     sines from x^2 + y^2, never from 1 - cos^2 (numerics anchors, rows 8 and 9); visible
@@ -30,7 +31,9 @@ inline constexpr double specular_alpha = 1e-3;
   const double tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
   return (std::sqrt(1 + alpha * alpha * tan2) - 1) / 2;
 }
-[[nodiscard]] inline double ggx_visible(const Vector3& w, double alpha) { return 1 / (1 + ggx_lambda(w, alpha)); }
+[[nodiscard]] inline double ggx_visible(const Vector3& w, double alpha) {
+  return 1 / (1 + ggx_lambda(w, alpha));
+}
 [[nodiscard]] inline double ggx_visible_both(const Vector3& wo, const Vector3& wi, double alpha) {
   return 1 / (1 + ggx_lambda(wo, alpha) + ggx_lambda(wi, alpha));
 }

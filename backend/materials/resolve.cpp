@@ -9,7 +9,9 @@
 namespace scenec::backend {
 namespace {
 
-Rgb rgb_of(const ir::Color& c) { return {c.r, c.g, c.b}; }
+Rgb rgb_of(const ir::Color& c) {
+  return {c.r, c.g, c.b};
+}
 
 struct Part {
   const ir::Material* material;
@@ -44,7 +46,8 @@ UnitVector3 mapped_normal(const RenderScene& scene, const Hit& hit, ir::TextureI
 // A shading normal for which the mirror direction does not go below the surface: where it would,
 // the mirror direction is lifted just above and the normal laid between it and the viewer (as
 // Cycles does; without it polygon meshes get black rims).
-UnitVector3 valid_normal(const UnitVector3& shading, const UnitVector3& geometric, const Vector3& to_viewer) {
+UnitVector3 valid_normal(const UnitVector3& shading, const UnitVector3& geometric,
+                         const Vector3& to_viewer) {
   const Vector3 mirrored = reflected(to_viewer, shading);
   // Cycles' height of the lifted direction: 0.01, or less where the viewer itself is that low.
   constexpr double lift = 0.01;
@@ -56,7 +59,8 @@ UnitVector3 valid_normal(const UnitVector3& shading, const UnitVector3& geometri
   return dot(normal, to_viewer) > 0 ? normal : geometric;
 }
 
-void set_frame(Bsdf& b, const RenderScene& scene, const Hit& hit, const Vector3& to_viewer, ir::TextureId normal_map) {
+void set_frame(Bsdf& b, const RenderScene& scene, const Hit& hit, const Vector3& to_viewer,
+               ir::TextureId normal_map) {
   b.entering = dot(hit.geometric_normal, to_viewer) >= 0;
   b.geometric = b.entering ? hit.geometric_normal : -hit.geometric_normal;
   UnitVector3 shading = hit.shading_normal;
@@ -80,8 +84,12 @@ struct Filler {
   Sample2 uv;
   Bsdf& b;
 
-  [[nodiscard]] Rgb color(const ir::ColorInput& input) const { return scene.textures.color(input, uv); }
-  [[nodiscard]] double number(const ir::NumberInput& input) const { return scene.textures.number(input, uv); }
+  [[nodiscard]] Rgb color(const ir::ColorInput& input) const {
+    return scene.textures.color(input, uv);
+  }
+  [[nodiscard]] double number(const ir::NumberInput& input) const {
+    return scene.textures.number(input, uv);
+  }
 
   void operator()(const ir::Diffuse& m) const {
     b.kind = BsdfKind::diffuse;
@@ -130,7 +138,8 @@ struct Filler {
 
 }  // namespace
 
-Bsdf resolve_bsdf(const RenderScene& scene, ir::MaterialId material, const Hit& hit, const Vector3& to_viewer, double mix) {
+Bsdf resolve_bsdf(const RenderScene& scene, ir::MaterialId material, const Hit& hit,
+                  const Vector3& to_viewer, double mix) {
   const Sample2 uv{hit.u, hit.v};
   const Part part = choose_part(scene, material, uv, mix);
   Bsdf b;
@@ -145,10 +154,12 @@ Rgb emission_of(const RenderScene& scene, ir::MaterialId id, Sample2 uv, bool ou
   if (!scene.facts.emissive(id)) return {};
   const ir::Material& material = scene.scene->materials[id];
   Rgb sum;
-  if (outside || material.common.two_sided) sum = scene.textures.color(material.common.emission, uv);
+  if (outside || material.common.two_sided)
+    sum = scene.textures.color(material.common.emission, uv);
   if (const auto* mix = std::get_if<ir::Mix>(&material.kind)) {
     const double weight = scene.textures.number(mix->weight, uv);
-    sum += emission_of(scene, mix->a, uv, outside) * (1 - weight) + emission_of(scene, mix->b, uv, outside) * weight;
+    sum += emission_of(scene, mix->a, uv, outside) * (1 - weight) +
+           emission_of(scene, mix->b, uv, outside) * weight;
   }
   return sum;
 }
@@ -160,7 +171,8 @@ double opacity_of(const RenderScene& scene, ir::MaterialId id, Sample2 uv) {
   if (material.common.cutout) opacity = opacity < *material.common.cutout ? 0 : 1;
   if (const auto* mix = std::get_if<ir::Mix>(&material.kind)) {
     const double weight = scene.textures.number(mix->weight, uv);
-    opacity *= opacity_of(scene, mix->a, uv) * (1 - weight) + opacity_of(scene, mix->b, uv) * weight;
+    opacity *=
+        opacity_of(scene, mix->a, uv) * (1 - weight) + opacity_of(scene, mix->b, uv) * weight;
   }
   return opacity;
 }

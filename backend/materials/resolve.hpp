@@ -9,11 +9,12 @@
 namespace scenec::backend {
 
 // `mix` chooses between the parts of mixes.
-[[nodiscard]] Bsdf resolve_bsdf(const RenderScene& scene, ir::MaterialId material, const Hit& hit, const Vector3& to_viewer,
-                                double mix);
+[[nodiscard]] Bsdf resolve_bsdf(const RenderScene& scene, ir::MaterialId material, const Hit& hit,
+                                const Vector3& to_viewer, double mix);
 
 // Radiance given off towards a side; `outside`: the side the outward normal faces.
-[[nodiscard]] Rgb emission_of(const RenderScene& scene, ir::MaterialId material, Sample2 uv, bool outside);
+[[nodiscard]] Rgb emission_of(const RenderScene& scene, ir::MaterialId material, Sample2 uv,
+                              bool outside);
 // The probability that a ray is stopped: 0 or 1 with a cutout.
 [[nodiscard]] double opacity_of(const RenderScene& scene, ir::MaterialId material, Sample2 uv);
 

@@ -21,7 +21,9 @@ inline constexpr std::uint32_t material_mix = 7;  // 1
 inline constexpr std::uint32_t opacity = 8;       // keyed further by the surface hit
 inline constexpr std::uint32_t per_bounce = 10;
 
-[[nodiscard]] constexpr std::uint32_t bounce(std::uint32_t depth) { return 4 + depth * per_bounce; }
+[[nodiscard]] constexpr std::uint32_t bounce(std::uint32_t depth) {
+  return 4 + depth * per_bounce;
+}
 }  // namespace dimension
 
 }  // namespace scenec::backend

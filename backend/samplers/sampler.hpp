@@ -3,9 +3,9 @@
 //
 // Domain:     pixel and seed any 64 bits; sample below 2^32; any dimension.
 // Method:     Sobol: pairs of dimensions are padded: each pair takes the first two Sobol dimensions
-//             with its own Owen scramble of the order of samples and of each coordinate (Burley 2020,
-//             "Practical Hash-based Owen Scrambling", with Vegdahl's constants for the Laine-Karras
-//             permutation). Every prefix of 2^k samples of a pair is a (0, k, 2)-net.
+//             with its own Owen scramble of the order of samples and of each coordinate (Burley
+//             2020, "Practical Hash-based Owen Scrambling", with Vegdahl's constants for the
+//             Laine-Karras permutation). Every prefix of 2^k samples of a pair is a (0, k, 2)-net.
 // Error:      multiples of 2^-53 in [0, 1): 32 bits of the net, the rest random; 1 never comes.
 // Degenerate: none.
 // Proof:      tests/unit/backend/samplers/sampler_test.cpp.
@@ -67,8 +67,10 @@ inline constexpr std::array<std::array<std::uint32_t, 256>, 4> second = second_d
 class Sampler {
  public:
   Sampler(ir::SamplerKind kind, std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample)
-      : kind_(kind), reversed_index_(reversed_bits(static_cast<std::uint32_t>(sample))),
-        pixel_random_(seed, pixel, ~std::uint64_t{0}), sample_random_(seed, pixel, sample) {}
+      : kind_(kind),
+        reversed_index_(reversed_bits(static_cast<std::uint32_t>(sample))),
+        pixel_random_(seed, pixel, ~std::uint64_t{0}),
+        sample_random_(seed, pixel, sample) {}
 
   [[nodiscard]] double get_1d(std::uint32_t dimension) const {
     if (kind_ == ir::SamplerKind::independent) return sample_random_.unit(dimension);
@@ -82,8 +84,10 @@ class Sampler {
     }
     const std::uint64_t key = pixel_random_.bits(dimension);
     const std::uint64_t more = mix_bits(key);
-    // The first Sobol coordinate is the bit-reversed index, so it is the reversed index as it stands.
-    const std::uint32_t shuffled = owen_permutation(reversed_index_, static_cast<std::uint32_t>(key));
+    // The first Sobol coordinate is the bit-reversed index, so it is the reversed index as it
+    // stands.
+    const std::uint32_t shuffled =
+        owen_permutation(reversed_index_, static_cast<std::uint32_t>(key));
     const std::uint32_t second = reversed_bits(sobol_second(reversed_bits(shuffled)));
     return {scrambled_reversed(reversed_bits(shuffled), static_cast<std::uint32_t>(key >> 32), key),
             scrambled_reversed(second, static_cast<std::uint32_t>(more), more)};
@@ -95,7 +99,8 @@ class Sampler {
 
  private:
   // `value_reversed`: the coordinate's bits in reverse order.
-  [[nodiscard]] double scrambled_reversed(std::uint32_t value_reversed, std::uint32_t seed, std::uint64_t key) const {
+  [[nodiscard]] double scrambled_reversed(std::uint32_t value_reversed, std::uint32_t seed,
+                                          std::uint64_t key) const {
     const std::uint32_t value = reversed_bits(owen_permutation(value_reversed, seed));
     // Bits below the net's resolution are random; they must differ between samples.
     const std::uint64_t low = mix_bits(key + value) >> 43;

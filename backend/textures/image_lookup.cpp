@@ -21,7 +21,8 @@ double linear_sample(const DecodedImage& image, std::size_t index, bool srgb) {
 
 std::int64_t wrapped(std::int64_t i, std::int64_t n, ir::Wrap wrap) {
   switch (wrap) {
-    case ir::Wrap::clamp: return std::clamp<std::int64_t>(i, 0, n - 1);
+    case ir::Wrap::clamp:
+      return std::clamp<std::int64_t>(i, 0, n - 1);
     case ir::Wrap::repeat: {
       const std::int64_t m = i % n;
       return m < 0 ? m + n : m;
@@ -43,14 +44,19 @@ std::int64_t whole(double x) {
   return static_cast<std::int64_t>(std::floor(x));
 }
 
-TextureValue operator*(const TextureValue& a, double s) { return {a.color * s, a.alpha * s}; }
-TextureValue operator+(const TextureValue& a, const TextureValue& b) { return {a.color + b.color, a.alpha + b.alpha}; }
+TextureValue operator*(const TextureValue& a, double s) {
+  return {a.color * s, a.alpha * s};
+}
+TextureValue operator+(const TextureValue& a, const TextureValue& b) {
+  return {a.color + b.color, a.alpha + b.alpha};
+}
 
 }  // namespace
 
 TextureValue texel(const DecodedImage& image, std::int64_t x, std::int64_t y, bool srgb) {
   const std::size_t channels = image.channels;
-  const std::size_t base = (static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x)) * channels;
+  const std::size_t base =
+      (static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x)) * channels;
   TextureValue value;
   if (channels <= 2) {
     value.color = Rgb::gray(linear_sample(image, base, srgb));
@@ -63,7 +69,8 @@ TextureValue texel(const DecodedImage& image, std::int64_t x, std::int64_t y, bo
   return value;
 }
 
-TextureValue lookup(const DecodedImage& image, Sample2 uv, ir::Wrap wrap, ir::TextureFilter filter, bool srgb) {
+TextureValue lookup(const DecodedImage& image, Sample2 uv, ir::Wrap wrap, ir::TextureFilter filter,
+                    bool srgb) {
   const auto width = static_cast<std::int64_t>(image.width);
   const auto height = static_cast<std::int64_t>(image.height);
   const double u = std::isfinite(uv.u) ? uv.u : 0;

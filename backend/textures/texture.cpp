@@ -8,7 +8,9 @@
 namespace scenec::backend {
 namespace {
 
-TextureValue mixed(const Rgb& a, const Rgb& b, double t) { return {a * (1 - t) + b * t, 1}; }
+TextureValue mixed(const Rgb& a, const Rgb& b, double t) {
+  return {a * (1 - t) + b * t, 1};
+}
 
 double gradient(std::uint64_t hash, double x, double y) {
   // Eight directions, as in Perlin's improved noise in the plane.
@@ -19,7 +21,9 @@ double gradient(std::uint64_t hash, double x, double y) {
   return gx[i] * x + gy[i] * y;
 }
 
-double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+double fade(double t) {
+  return t * t * t * (t * (t * 6 - 15) + 10);
+}
 
 // The fraction of x within its unit cell, 0 for what is not finite.
 double cell_fraction(double x) {
@@ -62,10 +66,14 @@ double fractal(const ir::FractalTexture& texture, Sample2 uv) {
 
 Rgb single_channel(const TextureValue& value, ir::Channel channel) {
   switch (channel) {
-    case ir::Channel::r: return Rgb::gray(value.color.r);
-    case ir::Channel::g: return Rgb::gray(value.color.g);
-    case ir::Channel::b: return Rgb::gray(value.color.b);
-    case ir::Channel::alpha: return Rgb::gray(value.alpha);
+    case ir::Channel::r:
+      return Rgb::gray(value.color.r);
+    case ir::Channel::g:
+      return Rgb::gray(value.color.g);
+    case ir::Channel::b:
+      return Rgb::gray(value.color.b);
+    case ir::Channel::alpha:
+      return Rgb::gray(value.alpha);
   }
   return {};
 }
@@ -82,7 +90,8 @@ double gradient_noise(double x, double y) {
   const double dx = x - fx;
   const double dy = y - fy;
   const auto corner = [&](std::int64_t cx, std::int64_t cy) {
-    const std::uint64_t hash = mix_bits(mix_bits(static_cast<std::uint64_t>(ix + cx)) + static_cast<std::uint64_t>(iy + cy));
+    const std::uint64_t hash = mix_bits(mix_bits(static_cast<std::uint64_t>(ix + cx)) +
+                                        static_cast<std::uint64_t>(iy + cy));
     return gradient(hash >> 32, dx - static_cast<double>(cx), dy - static_cast<double>(cy));
   };
   const double u = fade(dx);
@@ -93,13 +102,16 @@ double gradient_noise(double x, double y) {
   return std::clamp((low * (1 - v) + high * v) * 1.41421356237309504880, -1.0, 1.0);
 }
 
-TextureValue TextureEvaluator::image(const ir::ImageTexture& texture, Sample2 uv, TextureUse use) const {
+TextureValue TextureEvaluator::image(const ir::ImageTexture& texture, Sample2 uv,
+                                     TextureUse use) const {
   const auto& decoded = (*images_)[texture.file.value()];
   if (!decoded) return {};
   const bool eight_bits = decoded->encoding == SampleEncoding::srgb;
-  const bool srgb = texture.encoding == ir::Encoding::srgb ||
-                    (texture.encoding == ir::Encoding::automatic && eight_bits && use == TextureUse::color);
-  return lookup(*decoded, {uv.u * texture.scale.x, uv.v * texture.scale.y}, texture.wrap, texture.filter, srgb);
+  const bool srgb =
+      texture.encoding == ir::Encoding::srgb ||
+      (texture.encoding == ir::Encoding::automatic && eight_bits && use == TextureUse::color);
+  return lookup(*decoded, {uv.u * texture.scale.x, uv.v * texture.scale.y}, texture.wrap,
+                texture.filter, srgb);
 }
 
 TextureValue TextureEvaluator::value(ir::TextureId id, Sample2 uv, TextureUse use) const {
@@ -110,9 +122,11 @@ TextureValue TextureEvaluator::value(ir::TextureId id, Sample2 uv, TextureUse us
   };
   if (const auto* t = std::get_if<ir::ImageTexture>(&kind)) return image(*t, uv, use);
   if (const auto* t = std::get_if<ir::CheckerTexture>(&kind)) {
-    return {of(odd_cell(std::floor(uv.u * t->scale) + std::floor(uv.v * t->scale)) ? t->b : t->a), 1};
+    return {of(odd_cell(std::floor(uv.u * t->scale) + std::floor(uv.v * t->scale)) ? t->b : t->a),
+            1};
   }
-  if (const auto* t = std::get_if<ir::FractalTexture>(&kind)) return mixed(of(t->a), of(t->b), fractal(*t, uv));
+  if (const auto* t = std::get_if<ir::FractalTexture>(&kind))
+    return mixed(of(t->a), of(t->b), fractal(*t, uv));
   if (const auto* t = std::get_if<ir::RampTexture>(&kind)) return ramp(*t, number(t->t, uv));
   if (const auto* t = std::get_if<ir::GridTexture>(&kind)) {
     const auto on_line = [&](double x) {
@@ -121,9 +135,11 @@ TextureValue TextureEvaluator::value(ir::TextureId id, Sample2 uv, TextureUse us
     };
     return {of(on_line(uv.u) || on_line(uv.v) ? t->line : t->fill), 1};
   }
-  if (const auto* t = std::get_if<ir::ConstantTexture>(&kind)) return {{t->color.r, t->color.g, t->color.b}, 1};
+  if (const auto* t = std::get_if<ir::ConstantTexture>(&kind))
+    return {{t->color.r, t->color.g, t->color.b}, 1};
   if (const auto* t = std::get_if<ir::ProductTexture>(&kind)) return {of(t->a) * of(t->b), 1};
-  if (const auto* t = std::get_if<ir::MixTexture>(&kind)) return mixed(of(t->a), of(t->b), number(t->t, uv));
+  if (const auto* t = std::get_if<ir::MixTexture>(&kind))
+    return mixed(of(t->a), of(t->b), number(t->t, uv));
   const auto& channel = std::get<ir::ChannelTexture>(kind);
   return {single_channel(value(channel.source, uv, TextureUse::data), channel.channel), 1};
 }

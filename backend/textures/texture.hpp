@@ -4,8 +4,9 @@
 // Method:     wrapping on whole texel indices (floor, then modulo), texel centres at (i + 0.5) / n;
 //             sRGB texels are decoded before they are mixed. Fractal: sum of gradient noise (Perlin
 //             2002) over octaves of half amplitude, on a hashed lattice.
-// Error:      lookups exact to 4 ulp of the texel values; at a texel's centre bilinear is exact (T04).
-// Degenerate: 1 x 1 pictures under every filter; ramps without stops are black; u = 1 is the last
+// Error:      lookups exact to 4 ulp of the texel values; at a texel's centre bilinear is exact
+// (T04). Degenerate: 1 x 1 pictures under every filter; ramps without stops are black; u = 1 is the
+// last
 //             texel's far edge, which repeats to the first (T01).
 // Proof:      tests/unit/backend/textures/texture_test.cpp.
 #pragma once
@@ -31,7 +32,8 @@ enum class TextureUse : std::uint8_t { color, data };
 class TextureEvaluator {
  public:
   // `images` by AssetId; null where the asset is no image. Both must outlive this.
-  TextureEvaluator(const ir::Scene& scene, const std::vector<std::shared_ptr<const DecodedImage>>& images)
+  TextureEvaluator(const ir::Scene& scene,
+                   const std::vector<std::shared_ptr<const DecodedImage>>& images)
       : scene_(&scene), images_(&images) {}
 
   [[nodiscard]] TextureValue value(ir::TextureId texture, Sample2 uv, TextureUse use) const;
@@ -45,17 +47,19 @@ class TextureEvaluator {
   }
 
  private:
-  [[nodiscard]] TextureValue image(const ir::ImageTexture& texture, Sample2 uv, TextureUse use) const;
+  [[nodiscard]] TextureValue image(const ir::ImageTexture& texture, Sample2 uv,
+                                   TextureUse use) const;
 
   const ir::Scene* scene_;
   const std::vector<std::shared_ptr<const DecodedImage>>* images_;
 };
 
 // One texel as linear values (`srgb`: whole numbers carry the curve), by wrapped index.
-[[nodiscard]] TextureValue texel(const DecodedImage& image, std::int64_t x, std::int64_t y, bool srgb);
+[[nodiscard]] TextureValue texel(const DecodedImage& image, std::int64_t x, std::int64_t y,
+                                 bool srgb);
 // Bilinear or nearest; v = 0 is the bottom row.
-[[nodiscard]] TextureValue lookup(const DecodedImage& image, Sample2 uv, ir::Wrap wrap, ir::TextureFilter filter,
-                                  bool srgb);
+[[nodiscard]] TextureValue lookup(const DecodedImage& image, Sample2 uv, ir::Wrap wrap,
+                                  ir::TextureFilter filter, bool srgb);
 // Gradient noise in [-1, 1], 0 at whole numbers.
 [[nodiscard]] double gradient_noise(double x, double y);
 

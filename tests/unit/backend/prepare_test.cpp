@@ -23,12 +23,14 @@ struct Prepared {
   }
   [[nodiscard]] std::string text() const {
     std::string all;
-    for (const Diagnostic& d : sink.sorted()) all += std::string(info_of(d.kind).name) + ": " + d.message + "\n";
+    for (const Diagnostic& d : sink.sorted())
+      all += std::string(info_of(d.kind).name) + ": " + d.message + "\n";
     return all;
   }
 };
 
-Prepared with_mesh(MemoryFileSystem& files, const std::string& name, ir::NormalMode mode = ir::NormalMode::automatic) {
+Prepared with_mesh(MemoryFileSystem& files, const std::string& name,
+                   ir::NormalMode mode = ir::NormalMode::automatic) {
   SceneKit kit;
   kit.pinhole({0, 0, 3}, {0, 0, 0}, 40);
   ir::Mesh mesh;
@@ -73,14 +75,19 @@ TEST(prepare, problems_name_the_file_and_its_line) {
   const Prepared bad = with_mesh(files, "bad.obj");
   EXPECT_FALSE(bad.prepared);
   EXPECT_EQ(bad.text().rfind("mesh-broken: bad.obj:2: ", 0), 0U) << bad.text();
-  EXPECT_EQ(with_mesh(files, "model.stl").text(), "mesh-format-unknown: model.stl is neither an `.obj` nor a `.ply` file\n");
+  EXPECT_EQ(with_mesh(files, "model.stl").text(),
+            "mesh-format-unknown: model.stl is neither an `.obj` nor a `.ply` file\n");
   EXPECT_EQ(with_mesh(files, "gone.obj").text().rfind("file-unreadable: gone.obj", 0), 0U);
   EXPECT_EQ(with_mesh(files, "plain.obj", ir::NormalMode::file).text(),
             "mesh-lacks-normals: `normals = .file`, but plain.obj has no normals\n");
   const Prepared flat = with_mesh(files, "flat.obj");
   EXPECT_TRUE(flat.prepared);
-  EXPECT_EQ(flat.text().rfind("degenerate-faces: flat.obj:7: 1 face without area is left out", 0), 0U) << flat.text();
-  EXPECT_NE(with_mesh(files, "empty.obj").text().find("mesh-without-faces: empty.obj has no face to be seen\n"),
+  EXPECT_EQ(flat.text().rfind("degenerate-faces: flat.obj:7: 1 face without area is left out", 0),
+            0U)
+      << flat.text();
+  EXPECT_NE(with_mesh(files, "empty.obj")
+                .text()
+                .find("mesh-without-faces: empty.obj has no face to be seen\n"),
             std::string::npos);
 }
 
@@ -108,7 +115,8 @@ TEST(prepare, inline_meshes_are_checked) {
   };
   ir::Mesh mesh;
   mesh.faces = {{0, 1, 2}, {0, 1, 3}};
-  EXPECT_EQ(with(mesh), "degenerate-faces: 1 triangle without area is left out, the first of face 1\n");
+  EXPECT_EQ(with(mesh),
+            "degenerate-faces: 1 triangle without area is left out, the first of face 1\n");
 }
 
 TEST(prepare, nesting_of_instances_is_limited) {
@@ -117,13 +125,16 @@ TEST(prepare, nesting_of_instances_is_limited) {
     kit.pinhole({0, 0, 3}, {0, 0, 0}, 40);
     const ir::MaterialId m = kit.matt(0.5);
     ir::ProtoId proto = kit.proto({kit.item(ir::Sphere{}, m, kit.identity())});
-    for (int i = 1; i < levels; ++i) proto = kit.proto({kit.item(ir::Instance{proto}, {}, kit.identity())});
+    for (int i = 1; i < levels; ++i)
+      proto = kit.proto({kit.item(ir::Instance{proto}, {}, kit.identity())});
     kit.place(ir::Instance{proto}, {});
     MemoryFileSystem files;
     return Prepared(kit, files).text();
   };
   EXPECT_EQ(nested(8), "");
-  EXPECT_EQ(nested(9), "instances-nested-too-deep: instances are nested 9 deep; at most 8 levels can be traced\n");
+  EXPECT_EQ(
+      nested(9),
+      "instances-nested-too-deep: instances are nested 9 deep; at most 8 levels can be traced\n");
 }
 
 }  // namespace

@@ -14,8 +14,12 @@ namespace {
 constexpr double ior = 1.5;
 constexpr double normal_reflectance = (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1));
 
-ir::Sphere ball(ir::Point3 center, double radius) { return {center, {radius}}; }
-ir::Quad floor_quad(double half) { return {{-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}}; }
+ir::Sphere ball(ir::Point3 center, double radius) {
+  return {center, {radius}};
+}
+ir::Quad floor_quad(double half) {
+  return {{-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}};
+}
 
 // One pixel that looks straight down at the origin.
 void look_down(SceneKit& kit, double height = 1) {
@@ -41,7 +45,8 @@ TEST(render, closed_box_of_emitting_quads_is_a_furnace_too) {
   ir::MaterialCommon common;
   common.emission.value = {0.2, 0.2, 0.2};
   common.two_sided = true;
-  kit.place(ir::Box{{-1, -1, -1}, {1, 1, 1}}, kit.material(ir::Diffuse{{{0.8, 0.8, 0.8}, {}}}, common));
+  kit.place(ir::Box{{-1, -1, -1}, {1, 1, 1}},
+            kit.material(ir::Diffuse{{{0.8, 0.8, 0.8}, {}}}, common));
   kit.pinhole({0, 0, 0}, {0, 0, -1}, 60);
   kit.settings.samples = 512;
   EXPECT_NEAR(mean(render(kit)).g, 1, 0.02);
@@ -57,12 +62,19 @@ TEST_P(LampOverFloor, gives_the_closed_form) {  // X03
   const double irradiance = pi * 3 * r * r / (r * r + h * h);
   kit.place(floor_quad(10), kit.matt(0.5));
   switch (GetParam()) {
-    case 0: kit.light(ir::DiskLight{{0, h, 0}, {0, -1, 0}, {r}, 3.0, {}, true, ir::white}); break;
-    case 1: kit.place(ir::Disk{{0, h, 0}, {0, -1, 0}, {r}}, kit.glowing(3)); break;
-    case 2:  // a sphere seen under the same angle gives pi L sin^2, with sin = r / d
-      kit.light(ir::SphereLight{{0, h, 0}, {h * r / std::sqrt(r * r + h * h)}, 3.0, {}, true, ir::white});
+    case 0:
+      kit.light(ir::DiskLight{{0, h, 0}, {0, -1, 0}, {r}, 3.0, {}, true, ir::white});
       break;
-    case 3: kit.place(ball({0, h, 0}, h * r / std::sqrt(r * r + h * h)), kit.glowing(3)); break;
+    case 1:
+      kit.place(ir::Disk{{0, h, 0}, {0, -1, 0}, {r}}, kit.glowing(3));
+      break;
+    case 2:  // a sphere seen under the same angle gives pi L sin^2, with sin = r / d
+      kit.light(
+          ir::SphereLight{{0, h, 0}, {h * r / std::sqrt(r * r + h * h)}, 3.0, {}, true, ir::white});
+      break;
+    case 3:
+      kit.place(ball({0, h, 0}, h * r / std::sqrt(r * r + h * h)), kit.glowing(3));
+      break;
     default:  // the same sphere, larger in its own space
       kit.place(ball({0, 0, 0}, 10 * h * r / std::sqrt(r * r + h * h)), kit.glowing(3),
                 kit.transform({0.1, 0, 0, 0, 0, 0.1, 0, h, 0, 0, 0.1, 0, 0, 0, 0, 1}));
@@ -80,13 +92,15 @@ TEST(render, aiming_at_lights_and_finding_them_by_chance_agree) {  // X01 in sma
     kit.place(floor_quad(4), kit.matt(0.7));
     kit.place(ir::Cylinder{{0.6, 0, 0.2}, {0.6, 0.7, 0.2}, {0.2}, true},
               kit.material(ir::Ggx{{{0.3, 0.2, 0.6}, {}}, {{0.04, 0.04, 0.04}, {}}, {0.4, {}}}));
-    // Behind a mix with an opaque partner emission is the same, but a texture makes it another code path.
+    // Behind a mix with an opaque partner emission is the same, but a texture makes it another code
+    // path.
     const ir::MaterialId plain = kit.glowing(6);
     ir::MaterialCommon textured;
     textured.emission.texture = kit.texture({ir::ConstantTexture{{6, 6, 6}}});
     const ir::MaterialId by_texture = kit.material(ir::Diffuse{{{0, 0, 0}, {}}}, textured);
     const ir::MaterialId glow = light_shape ? plain : by_texture;
-    const ir::TransformId squeezed = kit.transform({0.5, 0, 0, 0, 0, 0.25, 0, 1.5, 0, 0, 0.4, 0, 0, 0, 0, 1});
+    const ir::TransformId squeezed =
+        kit.transform({0.5, 0, 0, 0, 0, 0.25, 0, 1.5, 0, 0, 0.4, 0, 0, 0, 0, 1});
     if (shape == 0) kit.place(ball({0, 0, 0}, 1), glow, squeezed);
     if (shape == 1) kit.place(ir::Cylinder{{0, -0.5, 0}, {0, 0.5, 0}, {0.6}, true}, glow, squeezed);
     if (shape == 2) kit.place(ir::Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, glow, squeezed);
@@ -116,7 +130,8 @@ TEST(render, revolve_lit_by_chance_equals_cylinder_aimed_at) {
       ir::MaterialCommon common;
       common.emission.value = {2, 2, 2};
       common.two_sided = true;
-      kit.place(ir::Cylinder{{0, 0.5, 0}, {0, 1.2, 0}, {0.5}, false}, kit.material(ir::Diffuse{{{0, 0, 0}, {}}}, common));
+      kit.place(ir::Cylinder{{0, 0.5, 0}, {0, 1.2, 0}, {0.5}, false},
+                kit.material(ir::Diffuse{{{0, 0, 0}, {}}}, common));
     }
     kit.pinhole({0, 1, 3}, {0, 0.3, 0}, 50);
     kit.settings.samples = 512;
@@ -197,8 +212,10 @@ TEST(render, radiance_is_not_lost_in_a_ball_of_glass_under_an_even_sky) {
     kit.pinhole({0, 0, 4}, {0, 0, 0}, 20);
     kit.settings.background = ir::white;
     kit.settings.samples = 64;
-    // Rough glass loses what bounces between facets: a few percent. Smooth glass: chance ends paths.
-    EXPECT_NEAR(mean(render(kit)).r, roughness == 0 ? 1 : 0.98, roughness == 0 ? 1e-3 : 0.025) << roughness;
+    // Rough glass loses what bounces between facets: a few percent. Smooth glass: chance ends
+    // paths.
+    EXPECT_NEAR(mean(render(kit)).r, roughness == 0 ? 1 : 0.98, roughness == 0 ? 1e-3 : 0.025)
+        << roughness;
   }
 }
 
@@ -239,7 +256,8 @@ TEST(render, opacity_and_cutout_hold_for_camera_and_shadow_rays) {  // P15
     ir::MaterialCommon common;
     common.opacity.value = opacity;
     common.cutout = cutout;
-    kit.place(ir::Quad{{-9, 1.5, 9}, {18, 0, 0}, {0, 0, -18}}, kit.material(ir::Diffuse{{ir::black, {}}}, common));
+    kit.place(ir::Quad{{-9, 1.5, 9}, {18, 0, 0}, {0, 0, -18}},
+              kit.material(ir::Diffuse{{ir::black, {}}}, common));
     kit.place(ir::Plane{}, kit.matt(0.5));
     kit.light(ir::PointLight{{0, 2, 0}, pi * 8, {}, ir::Decay::inverse_square, ir::white});
     look_down(kit, below ? 1 : 3);
@@ -247,8 +265,8 @@ TEST(render, opacity_and_cutout_hold_for_camera_and_shadow_rays) {  // P15
     kit.settings.max_depth = 1;
     return mean(render(kit)).r;
   };
-  EXPECT_NEAR(scene(0.75, {}, true), 0.25, 0.01);        // shadow ray only
-  EXPECT_NEAR(scene(0.75, {}, false), 0.0625, 0.006);    // both
+  EXPECT_NEAR(scene(0.75, {}, true), 0.25, 0.01);      // shadow ray only
+  EXPECT_NEAR(scene(0.75, {}, false), 0.0625, 0.006);  // both
   EXPECT_NEAR(scene(0.3, 0.5, false), 1, 1e-6);
   EXPECT_NEAR(scene(0.7, 0.5, true), 0, 1e-9);
 }
@@ -313,7 +331,8 @@ TEST(render, emission_inside_instances_is_aimed_at) {
   const Picture direct = scene(false);
   const Picture instanced = scene(true);
   ASSERT_EQ(direct.rgb.size(), instanced.rgb.size());
-  for (std::size_t i = 0; i < direct.rgb.size(); ++i) EXPECT_NEAR(direct.rgb[i], instanced.rgb[i], 1e-6F);
+  for (std::size_t i = 0; i < direct.rgb.size(); ++i)
+    EXPECT_NEAR(direct.rgb[i], instanced.rgb[i], 1e-6F);
 }
 
 TEST(render, phong_pixel_equals_the_hand_computed_one) {
@@ -350,7 +369,8 @@ SceneKit busy_scene() {
   kit.pinhole({0, 1, 4}, {0, 0.4, 0}, 40);
   kit.settings.size = {37, 29};
   kit.settings.samples = 9;
-  kit.settings.aovs = {ir::Aov::albedo, ir::Aov::normal, ir::Aov::depth, ir::Aov::ids, ir::Aov::variance};
+  kit.settings.aovs = {ir::Aov::albedo, ir::Aov::normal, ir::Aov::depth, ir::Aov::ids,
+                       ir::Aov::variance};
   return kit;
 }
 

@@ -26,7 +26,9 @@ class SceneKit {
   ir::MaterialId material(ir::MaterialKind kind, ir::MaterialCommon common = {}) {
     return builder_.add_material({std::move(kind), std::move(common)}, declared("m"));
   }
-  ir::MaterialId matt(double albedo) { return material(ir::Diffuse{{{albedo, albedo, albedo}, {}}}); }
+  ir::MaterialId matt(double albedo) {
+    return material(ir::Diffuse{{{albedo, albedo, albedo}, {}}});
+  }
   ir::MaterialId glowing(double radiance, double albedo = 0) {
     ir::MaterialCommon common;
     common.emission.value = {radiance, radiance, radiance};
@@ -51,9 +53,13 @@ class SceneKit {
     return {builder_.add_shape(std::move(shape)), transform, material, origin_, {}};
   }
   [[nodiscard]] ir::TransformId identity() const { return identity_; }
-  ir::ProtoId proto(std::vector<ir::Item> items) { return builder_.add_proto({std::move(items)}, declared("p")); }
+  ir::ProtoId proto(std::vector<ir::Item> items) {
+    return builder_.add_proto({std::move(items)}, declared("p"));
+  }
   void light(ir::LightKind kind) { builder_.add_light({std::move(kind)}, declared("")); }
-  void camera(ir::CameraKind kind) { settings.camera = builder_.add_camera({std::move(kind)}, declared("c")); }
+  void camera(ir::CameraKind kind) {
+    settings.camera = builder_.add_camera({std::move(kind)}, declared("c"));
+  }
   void pinhole(ir::Point3 eye, ir::Point3 aim, double fov_degrees, ir::Direction up = {0, 1, 0}) {
     ir::Pinhole camera_kind;
     camera_kind.eye = eye;
@@ -102,11 +108,15 @@ struct Ready {
   }
 };
 
-inline Picture render(SceneKit& kit, unsigned threads = 2) { return Ready(kit.finish(), threads).render(); }
+inline Picture render(SceneKit& kit, unsigned threads = 2) {
+  return Ready(kit.finish(), threads).render();
+}
 
 inline Rgb pixel(const Picture& picture, int x, int y) {
-  const auto i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
-  return {static_cast<double>(picture.rgb[i]), static_cast<double>(picture.rgb[i + 1]), static_cast<double>(picture.rgb[i + 2])};
+  const auto i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                      static_cast<std::size_t>(x));
+  return {static_cast<double>(picture.rgb[i]), static_cast<double>(picture.rgb[i + 1]),
+          static_cast<double>(picture.rgb[i + 2])};
 }
 
 inline Rgb mean(const Picture& picture) {

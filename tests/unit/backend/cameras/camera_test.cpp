@@ -67,7 +67,8 @@ TEST(camera, closed_aperture_is_a_pinhole) {  // C05
   const CameraSampler a({lens(0, 4)}, {64, 48});
   const CameraSampler b({pinhole(60)}, {64, 48});
   EXPECT_FALSE(a.has_lens());
-  for (const double x : {0.0, 13.5, 64.0}) EXPECT_EQ(a.ray(x, 7, {}).direction, b.ray(x, 7, {}).direction);
+  for (const double x : {0.0, 13.5, 64.0})
+    EXPECT_EQ(a.ray(x, 7, {}).direction, b.ray(x, 7, {}).direction);
 }
 
 TEST(camera, rays_through_the_lens_meet_in_the_focal_plane) {

@@ -14,7 +14,8 @@ namespace scenec::backend {
 namespace {
 
 TEST(fixed_sum, holds_exact_values_of_both_signs) {
-  for (const double value : {0.0, 1.0, -1.0, 0.5, 1e6, -12345.678, 0x1p-64, 3 * 0x1p-60, 0x1p41 + 0.25}) {
+  for (const double value :
+       {0.0, 1.0, -1.0, 0.5, 1e6, -12345.678, 0x1p-64, 3 * 0x1p-60, 0x1p41 + 0.25}) {
     FixedSum sum;
     EXPECT_TRUE(sum.add(value));
     EXPECT_EQ(sum.value(), value);
@@ -30,7 +31,8 @@ TEST(fixed_sum, holds_exact_values_of_both_signs) {
 TEST(fixed_sum, does_not_depend_on_the_order_of_terms) {
   std::mt19937_64 random(17);
   std::vector<double> terms(4096);
-  for (double& t : terms) t = std::ldexp(unit_double(random()) - 0.5, static_cast<int>(random() % 60) - 30);
+  for (double& t : terms)
+    t = std::ldexp(unit_double(random()) - 0.5, static_cast<int>(random() % 60) - 30);
   FixedSum first;
   for (const double t : terms) first.add(t);
   for (int round = 0; round < 4; ++round) {
@@ -155,8 +157,9 @@ TEST_P(Filters, keep_a_constant_exact) {  // C07
 }
 
 INSTANTIATE_TEST_SUITE_P(all, Filters,
-                         testing::Values(ir::FilterKind::tent, ir::FilterKind::box, ir::FilterKind::gaussian,
-                                         ir::FilterKind::mitchell, ir::FilterKind::blackman_harris));
+                         testing::Values(ir::FilterKind::tent, ir::FilterKind::box,
+                                         ir::FilterKind::gaussian, ir::FilterKind::mitchell,
+                                         ir::FilterKind::blackman_harris));
 
 }  // namespace
 }  // namespace scenec::backend

@@ -42,12 +42,14 @@ double triangle_solid_angle(const Vector3& a, const Vector3& b, const Vector3& c
   const double la = length(a);
   const double lb = length(b);
   const double lc = length(c);
-  return 2 * std::atan2(std::fabs(dot(a, cross(b, c))), la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la);
+  return 2 * std::atan2(std::fabs(dot(a, cross(b, c))),
+                        la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la);
 }
 
 TEST(emitter, sampled_solid_angles_equal_the_closed_forms) {
   const Point3 from{3, -2, 2};
-  for (const EmitterShape shape : {EmitterShape::triangle, EmitterShape::parallelogram, EmitterShape::sphere}) {
+  for (const EmitterShape shape :
+       {EmitterShape::triangle, EmitterShape::parallelogram, EmitterShape::sphere}) {
     const Emitter e = emitter(shape);
     double sampled = 0;
     constexpr int n = 400;
@@ -57,15 +59,18 @@ TEST(emitter, sampled_solid_angles_equal_the_closed_forms) {
     }
     const Vector3 a = e.origin - from;
     double expected = triangle_solid_angle(a, a + e.a, a + e.b);
-    if (shape == EmitterShape::parallelogram) expected += triangle_solid_angle(a + e.a + e.b, a + e.a, a + e.b);
-    if (shape == EmitterShape::sphere) expected = 2 * pi * (1 - std::sqrt(1 - e.radius * e.radius / length_squared(a)));
+    if (shape == EmitterShape::parallelogram)
+      expected += triangle_solid_angle(a + e.a + e.b, a + e.a, a + e.b);
+    if (shape == EmitterShape::sphere)
+      expected = 2 * pi * (1 - std::sqrt(1 - e.radius * e.radius / length_squared(a)));
     EXPECT_NEAR(sampled, expected, 1e-4 * expected);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(all, Emitters,
-                         testing::Values(EmitterShape::triangle, EmitterShape::parallelogram, EmitterShape::ellipse,
-                                         EmitterShape::sphere, EmitterShape::ellipsoid, EmitterShape::tube));
+                         testing::Values(EmitterShape::triangle, EmitterShape::parallelogram,
+                                         EmitterShape::ellipse, EmitterShape::sphere,
+                                         EmitterShape::ellipsoid, EmitterShape::tube));
 
 TEST(emitter, ellipsoid_that_is_a_sphere_has_its_density) {
   Emitter e = emitter(EmitterShape::ellipsoid);
@@ -109,13 +114,16 @@ TEST(emitter, from_within_or_on_a_sphere_everything_is_finite) {  // P04, P05
   for (int k = -4; k <= 4; ++k) {
     const Point3 from{0, 0, 2 * (1 + k * 0x1p-52)};
     const auto s = sample_emitter(e, from, {0.4, 0.6});
-    if (s) { EXPECT_TRUE(std::isfinite(s->pdf) && s->pdf > 0); }
+    if (s) {
+      EXPECT_TRUE(std::isfinite(s->pdf) && s->pdf > 0);
+    }
   }
   // A point in the middle sees light from everywhere: mean of cos / pdf over the sphere.
   double solid_angle = 0;
   constexpr int n = 64;
   for (int i = 0; i < n * n; ++i) {
-    solid_angle += 1 / sample_emitter(e, {0, 0, 0}, {(i % n + 0.5) / n, (i / n + 0.5) / n})->pdf / (n * n);
+    solid_angle +=
+        1 / sample_emitter(e, {0, 0, 0}, {(i % n + 0.5) / n, (i / n + 0.5) / n})->pdf / (n * n);
   }
   EXPECT_NEAR(solid_angle, 4 * pi, 1e-9);
 }
@@ -179,7 +187,8 @@ std::shared_ptr<const DecodedImage> sky_image() {
   std::vector<float> samples;
   for (std::uint64_t i = 0; i < 32 * 16; ++i) {
     const bool sun = i == 5 * 32 + 9;
-    for (int c = 0; c < 3; ++c) samples.push_back(sun ? 500.0F : static_cast<float>(random_unit(4, i, 0, 0)));
+    for (int c = 0; c < 3; ++c)
+      samples.push_back(sun ? 500.0F : static_cast<float>(random_unit(4, i, 0, 0)));
   }
   image.samples = std::move(samples);
   return std::make_shared<DecodedImage>(std::move(image));
@@ -196,7 +205,8 @@ TEST(environment, density_integrates_to_one_and_belongs_to_the_samples) {
     const double z = 2 * (i + 0.5) / n - 1;
     for (int j = 0; j < n; ++j) {
       const double phi = 2 * pi * (j + 0.5) / n;
-      const Vector3 d{std::sqrt(1 - z * z) * std::cos(phi), z, std::sqrt(1 - z * z) * std::sin(phi)};
+      const Vector3 d{std::sqrt(1 - z * z) * std::cos(phi), z,
+                      std::sqrt(1 - z * z) * std::sin(phi)};
       total += sky.pdf(d) * 4 * pi / (n * n);
       by_grid += sky.radiance(d) * (4 * pi / (n * n));
     }

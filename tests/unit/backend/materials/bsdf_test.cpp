@@ -56,7 +56,8 @@ std::vector<Case> cases(double cosine) {
     f.specular = {1, 1, 1};
     for (const double ior : {1.5, 1 / 1.5}) {
       f.ior = ior;
-      out.push_back({"glass " + std::to_string(alpha) + " " + std::to_string(ior), prepared(f, cosine)});
+      out.push_back(
+          {"glass " + std::to_string(alpha) + " " + std::to_string(ior), prepared(f, cosine)});
     }
   }
   return out;
@@ -131,7 +132,8 @@ TEST(bsdf, diffuse_and_facets_are_reciprocal) {  // S09, without the compensatio
     const double f = evaluate(there, back.wo).f_cos.r / back.wo.z;
     const double g = evaluate(back, there.wo).f_cos.r / there.wo.z;
     EXPECT_NEAR(f, g, 1e-12 * f);
-    // Through the surface: f(wo, wi) n_i^2 ... is symmetric once the scaling by the index is undone.
+    // Through the surface: f(wo, wi) n_i^2 ... is symmetric once the scaling by the index is
+    // undone.
     Bsdf inner = b;
     inner.ior = 1 / 1.5;
     const Vector3 down{-back.wo.x, 0, -back.wo.z};
@@ -150,7 +152,8 @@ TEST(bsdf, light_never_passes_the_geometric_surface) {  // S12
     c.bsdf.geometric = normalized(Vector3{std::sqrt(0.75), 0, 0.5});
     for (int i = 0; i < 40; ++i) {
       for (int j = 0; j < 40; ++j) {
-        const BsdfSample s = sample_bsdf(c.bsdf, std::fmod(i * 0.618, 1.0), {(i + 0.5) / 40, (j + 0.5) / 40});
+        const BsdfSample s =
+            sample_bsdf(c.bsdf, std::fmod(i * 0.618, 1.0), {(i + 0.5) / 40, (j + 0.5) / 40});
         if (is_black(s.weight)) continue;
         const bool below = dot(s.wi, c.bsdf.geometric) < 0;
         EXPECT_EQ(below, s.transmitted) << c.name;

@@ -22,7 +22,9 @@ TEST(fresnel, dielectric_equals_the_formula_in_long_double) {  // S01
     for (int i = 0; i <= 1000; ++i) {
       const double c = i / 1000.0;
       if (eta == 1 && i == 0) continue;  // grazing at nothing: 0 by definition here
-      EXPECT_NEAR(fresnel_dielectric(c, eta).reflectance, static_cast<double>(reference(c, eta)), 1e-12) << c << " " << eta;
+      EXPECT_NEAR(fresnel_dielectric(c, eta).reflectance, static_cast<double>(reference(c, eta)),
+                  1e-12)
+          << c << " " << eta;
     }
   }
 }
@@ -58,7 +60,8 @@ TEST(fresnel, conductor_without_absorption_is_a_dielectric) {
       EXPECT_NEAR(fresnel_conductor(c, eta, 0), fresnel_dielectric(c, eta).reflectance, 1e-12);
     }
   }
-  EXPECT_NEAR(fresnel_conductor(1, 0.2, 3.9), (0.8 * 0.8 + 3.9 * 3.9) / (1.2 * 1.2 + 3.9 * 3.9), 1e-14);
+  EXPECT_NEAR(fresnel_conductor(1, 0.2, 3.9), (0.8 * 0.8 + 3.9 * 3.9) / (1.2 * 1.2 + 3.9 * 3.9),
+              1e-14);
   EXPECT_NEAR(fresnel_conductor(0, 0.2, 3.9), 1, 1e-14);
 }
 

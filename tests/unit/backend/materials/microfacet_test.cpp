@@ -10,7 +10,9 @@
 namespace scenec::backend {
 namespace {
 
-Vector3 at(double cosine) { return {std::sqrt(1 - cosine * cosine), 0, cosine}; }
+Vector3 at(double cosine) {
+  return {std::sqrt(1 - cosine * cosine), 0, cosine};
+}
 
 TEST(microfacet, projected_area_of_the_facets_is_one) {  // S06
   for (const double alpha : {1e-3, 0.01, 0.1, 0.5, 1.0}) {
@@ -82,11 +84,12 @@ TEST(ggx_albedo, equals_the_published_values) {  // S10
     double alpha;
     double values[3];  // cosine 1, .5, .1
   };
-  for (const Row& row : {Row{1, {.3067, .4506, .7599}}, Row{.5, {.6878, .6981, .8599}}, Row{.25, {.9156, .8571, .8915}},
-                         Row{.05, {.9973, .9928, .9114}}}) {
+  for (const Row& row : {Row{1, {.3067, .4506, .7599}}, Row{.5, {.6878, .6981, .8599}},
+                         Row{.25, {.9156, .8571, .8915}}, Row{.05, {.9973, .9928, .9114}}}) {
     const double cosines[3] = {1, .5, .1};
     for (int i = 0; i < 3; ++i) {
-      EXPECT_NEAR(table.directional(cosines[i], row.alpha).full(), row.values[i], 0.012) << row.alpha << " " << cosines[i];
+      EXPECT_NEAR(table.directional(cosines[i], row.alpha).full(), row.values[i], 0.012)
+          << row.alpha << " " << cosines[i];
     }
   }
   EXPECT_NEAR(table.average(0).of({0.04, 0.04, 0.04}).r, 0.04 + 0.96 / 21, 1e-3);
