@@ -61,7 +61,8 @@ std::optional<ir::Scene> compile(const LoadedFile& file, const CompileOptions& o
   const bool readable = !sink.has_errors();
   lowering.lower_scene(tree);
   check_doc_comments(session, tree);
-  if (readable) check_scene(session, tree, lowering);
+  const bool complete = !session.out_of_steps() && session.item_count() <= options.max_items;
+  if (readable && complete) check_scene(session, tree, lowering);
   if (sink.has_errors()) return std::nullopt;
   session.builder.set_render(lowering.render(), lowering.render_origin());
   return session.builder.finish();

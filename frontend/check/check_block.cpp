@@ -57,11 +57,13 @@ void BlockChecker::check_rule(const ir::KeyRule& rule) {
   using Kind = ir::KeyRule::Kind;
   if (rule.kind == Kind::together) {
     if (given.empty() || given.size() == names.size()) return;
+    sound_ = false;
     session_.error(DiagnosticKind::keys_belong_together, written(given[0])->name_node.span(),
                    fmt::format("{} belong together; found only {}", quoted_words(names, " and "), quoted_words(given, " and ")));
     return;
   }
   if (given.size() > 1) {
+    sound_ = false;
     Diagnostic diagnostic(DiagnosticKind::conflicting_keys, written(given[1])->name_node.span(),
                           fmt::format("{} exclude each other", quoted_words(given, " and ")));
     diagnostic.notes.push_back({fmt::format("`{}` is given here", given[0]), written(given[0])->name_node.span()});

@@ -21,9 +21,11 @@ Value unknown_texture(bool grey) {
 }
 
 template <ir::NamedEnum E>
-void choose(Call& call, std::size_t i, E& out) {
-  if (!call.has(i)) return;
-  if (const auto index = choice_of(call.session, call[i], ir::EnumNames<E>::names, call.need(i))) out = static_cast<E>(*index);
+bool choose(Call& call, std::size_t i, E& out) {
+  if (!call.has(i) || !call[i].known) return true;
+  const auto index = choice_of(call.session, call[i], ir::EnumNames<E>::names, call.need(i));
+  if (index) out = static_cast<E>(*index);
+  return index.has_value();
 }
 
 // Number i, or its default; nullopt (reported) outside of (0, inf).
@@ -37,9 +39,8 @@ bool positive(Call& call, std::size_t i, double& out) {
 
 Value run_image(Call& call) {
   ir::ImageTexture image;
-  choose(call, 1, image.wrap);
-  choose(call, 2, image.filter);
-  choose(call, 3, image.encoding);
+  const bool wrap = choose(call, 1, image.wrap), filter = choose(call, 2, image.filter), encoding = choose(call, 3, image.encoding);
+  if (!wrap || !filter || !encoding) return {};
   if (!call.known || call.session.checking_only()) return unknown_texture(false);
   const Value& file = call[0];
   image.file = call.session.asset(file.text(), file.id<SourceFile>(), call.span(0));

@@ -45,8 +45,8 @@ void Lowering::close(Scope& scope) {
   if (running()) return;
   for (const Binding& binding : scope.bindings()) {
     if (binding.used || !binding.lint_unused) continue;
-    session_.lint(Diagnostic(DiagnosticKind::unused_declaration, binding.span,
-                             fmt::format("the {} `{}` is never used", text_of(binding.kind), printable(binding.name))));
+    unused_.emplace_back(DiagnosticKind::unused_declaration, binding.span,
+                         fmt::format("the {} `{}` is never used", text_of(binding.kind), printable(binding.name)));
   }
 }
 

@@ -27,6 +27,10 @@ bool is_declaration(SyntaxKind kind) {
   }
 }
 
+bool is_shape_kind(std::string_view name) {
+  return KindDispatch<ir::ShapeTypes>::call(name, []<class>() {});
+}
+
 bool is_item(SyntaxKind kind) {
   return kind >= SyntaxKind::include && kind <= SyntaxKind::field;
 }
@@ -56,6 +60,8 @@ void Lowering::lower_scene(const grammar::SyntaxTree& tree) {
   report_unknown_settings(scope);
   const bool scene = notes_.first_placed.valid() || notes_.first_camera.valid();
   if (scene) close(scope);
+  if (session_.sink.has_errors()) return;  // a name misspelt elsewhere is not unused
+  for (Diagnostic& lint : unused_) session_.report(std::move(lint));
 }
 
 void Lowering::declare_all(const grammar::SyntaxTree& tree, Scope& scope) {
@@ -68,7 +74,8 @@ void Lowering::items(NodeRef block, Scope& scope, const Surroundings& around, Pa
   for (NodeRef child : block.children()) {
     if (!is_item(child.kind())) continue;
     const bool declaration = is_declaration(child.kind());
-    if ((pass == Pass::declarations && !declaration) || (pass == Pass::placements && declaration)) continue;
+    const bool placement = !declaration && !(pass == Pass::placements && child.is(SyntaxKind::field));
+    if ((pass == Pass::declarations && !declaration) || (pass == Pass::placements && !placement)) continue;
     item(child, scope, around);
     if (session_.out_of_steps() || session_.item_count() > session_.options.max_items) return;
   }
@@ -176,7 +183,7 @@ void Lowering::collect(NodeRef block, Scope& scope, Fields& fields) {
       }
       case SyntaxKind::shape: {  // `stop { ... }`
         const ast::Item parts = ast::item_of(child);
-        if (parts.kind && parts.block && !parts.name) {
+        if (parts.kind && parts.block && !parts.name && !is_shape_kind(parts.kind.text())) {
           fields.add(session_, {.name = parts.kind.text(), .name_node = parts.kind, .expression = {}, .block = parts.block});
         } else {
           misplaced(child, "in a block of keys");

@@ -91,7 +91,7 @@ class Lowering final : public FieldCollector {
   template <class T>
   void read_material(const ast::Item& parts, NodeRef node, Scope& scope, Value& value);
   // What a shape is made of: its own material, its group's, or the default one.
-  [[nodiscard]] ir::MaterialId material_for(ir::MaterialId own, const Surroundings& around, Span span);
+  [[nodiscard]] ir::MaterialId material_for(ir::MaterialId own, bool written, const Surroundings& around, Span span);
   [[nodiscard]] ir::TransformId transform_for(const std::optional<ir::Transform>& own, const Surroundings& around, Span span);
   void misplaced(NodeRef node, std::string_view where);
 
@@ -114,6 +114,7 @@ class Lowering final : public FieldCollector {
   ir::RenderSettings render_;
   ir::OriginId render_origin_;
   ir::MaterialId default_material_;
+  std::vector<Diagnostic> unused_;  // lints, reported when nothing is wrong
   std::unique_ptr<Modules> modules_;
   struct FieldsLease;
 };

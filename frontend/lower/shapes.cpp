@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "frontend/check/check_shape.hpp"
 #include "frontend/check/invertible.hpp"
+#include "frontend/check/key_name.hpp"
 #include "frontend/lower/lowering_access.hpp"
 
 namespace scenec::frontend {
@@ -32,10 +33,10 @@ ir::TransformId Lowering::transform_for(const std::optional<ir::Transform>& own,
   return session_.builder.add_transform(product);
 }
 
-ir::MaterialId Lowering::material_for(ir::MaterialId own, const Surroundings& around, Span span) {
+ir::MaterialId Lowering::material_for(ir::MaterialId own, bool written, const Surroundings& around, Span span) {
   if (own.valid()) return own;
   if (around.material.valid()) return around.material;
-  if (!session_.is_allowed(DiagnosticKind::default_material)) {
+  if (!written && !session_.is_allowed(DiagnosticKind::default_material)) {
     if (notes_.bare_count++ == 0) notes_.first_bare = span;
   }
   if (!default_material_.valid()) {
@@ -50,6 +51,7 @@ void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope, const S
   const Span head = parts.kind ? parts.kind.span() : parts.block.span();
   T shape{};
   ir::Placing placing;
+  bool material_written = false;
   {
     const FieldsLease lease(*this);
     Scope inside(&scope);
@@ -59,6 +61,7 @@ void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope, const S
     checker.read(placing);
     checker.template finish<T, ir::Placing>();
     if (checker.sound() && !session_.checking_only()) check_shape(session_, shape, checker, head);
+    material_written = checker.written(key_name<ir::Placing>(&ir::Placing::material)) != nullptr;
     close(inside);
   }
   if (session_.checking_only() || !session_.count_item(head)) return;
@@ -66,7 +69,7 @@ void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope, const S
   ir::Item item;
   item.transform = transform_for(placing.transform, around, head);
   constexpr bool keeps_materials = std::same_as<T, ir::Instance>;
-  item.material = keeps_materials ? placing.material : material_for(placing.material, around, head);
+  item.material = keeps_materials ? placing.material : material_for(placing.material, material_written, around, head);
   item.shape = session_.builder.add_shape(std::move(shape));
   item.origin = session_.add_origin(node.span());
   if (parts.name) item.name = session_.builder.add_name(parts.name.text());
