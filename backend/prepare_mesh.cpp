@@ -8,6 +8,7 @@
 
 #include "backend/math/elementary.hpp"
 #include "backend/prepare.hpp"
+#include "base/assert.hpp"
 #include "base/hash.hpp"
 #include "base/text.hpp"
 
@@ -184,19 +185,10 @@ TriangleMesh mesh_of_file(const ir::Mesh& source, const MeshData& data, const st
 
 TriangleMesh mesh_of_lists(const ir::Mesh& source, Span where, MeshReport& report) {
   TriangleMesh mesh;
-  const auto disagree = [&](std::string text) {
-    report.error = Diagnostic(DiagnosticKind::mesh_lists_disagree, where, std::move(text));
-    return TriangleMesh{};
-  };
+  // The IR's invariants: lists fit together, indices name vertices.
   const std::size_t count = source.vertices.size();
-  const std::string vertices = count_of(count, "vertex", "vertices");
-  if (!source.uvs.empty() && source.uvs.size() != count) {
-    return disagree("`uvs` has " + std::to_string(source.uvs.size()) + " entries for " + vertices);
-  }
-  if (!source.normals.list.empty() && source.normals.list.size() != count) {
-    return disagree("`normals` has " + std::to_string(source.normals.list.size()) +
-                    " entries for " + vertices);
-  }
+  SCENEC_ASSERT(source.uvs.empty() || source.uvs.size() == count);
+  SCENEC_ASSERT(source.normals.list.empty() || source.normals.list.size() == count);
   const double unit = source.unit.value;
   for (const ir::Point3& p : source.vertices)
     mesh.positions.push_back({p.x * unit, p.y * unit, p.z * unit});
@@ -204,12 +196,7 @@ TriangleMesh mesh_of_lists(const ir::Mesh& source, Span where, MeshReport& repor
   std::size_t first_dropped = 0;
   for (std::size_t f = 0; f < source.faces.size(); ++f) {
     const ir::Face& face = source.faces[f];
-    for (const std::uint32_t index : face) {
-      if (index >= count) {
-        return disagree("face " + std::to_string(f) + " names vertex " + std::to_string(index) +
-                        " of " + vertices);
-      }
-    }
+    for (const std::uint32_t index : face) SCENEC_ASSERT(index < count);
     for (std::size_t i = 2; i < face.size(); ++i) {
       if (has_area(mesh.positions[face[0]], mesh.positions[face[i - 1]], mesh.positions[face[i]])) {
         mesh.faces.push_back({face[0], face[i - 1], face[i]});
