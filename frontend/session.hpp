@@ -21,11 +21,13 @@
 namespace scenec::frontend {
 
 inline constexpr std::uint64_t max_evaluation_steps = 500'000'000;
-inline constexpr std::size_t max_list_elements = 16'000'000;
+inline constexpr std::size_t max_list_elements = 2'000'000;
 inline constexpr std::size_t max_string_bytes = std::size_t{1} << 20;
 inline constexpr std::uint64_t max_asset_bytes = std::uint64_t{2} << 30;
-// A list element holds a cache line of memory, so it costs more than a step of arithmetic.
-inline constexpr std::uint64_t steps_per_list_element = 16;
+// Steps are meant to cost about as much as an addition. An element holds a cache line of memory, a
+// round of a loop and a call make a scope.
+inline constexpr std::uint64_t steps_per_list_element = 64;
+inline constexpr std::uint64_t steps_per_scope = 32;
 
 class Session {
  public:

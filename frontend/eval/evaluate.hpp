@@ -77,7 +77,8 @@ class Evaluator {
   [[nodiscard]] std::optional<Span> declared_later(grammar::NodeRef name) const;
   void loop_over_range(const ast::Loop& parts, Scope& scope, const std::function<bool(Scope&)>& body);
   void loop_over_list(const ast::Loop& parts, Scope& scope, const std::function<bool(Scope&)>& body);
-  bool run_round(const ast::Loop& parts, Scope& scope, const Value& index, const Value* element,
+  void declare_variables(const ast::Loop& parts, Scope& round);
+  bool run_round(const ast::Loop& parts, Scope& round, Value index, Value element,
                  const std::function<bool(Scope&)>& body);
 
   Session& session_;

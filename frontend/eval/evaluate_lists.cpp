@@ -96,25 +96,25 @@ Value Evaluator::comprehension(NodeRef node, Scope& scope) {
   return pattern;
 }
 
-bool Evaluator::run_round(const ast::Loop& parts, Scope& scope, const Value& index, const Value* element,
-                          const std::function<bool(Scope&)>& body) {
-  if (!session_.spend(1, parts.first.span())) return false;
-  Scope round(&scope);
-  const auto declare = [&](NodeRef name, const Value& value) {
-    Binding binding{.name = name.text(), .span = name.span(), .kind = BindingKind::loop_variable, .value = value, .node = {}};
-    binding.lint_unused = false;
-    if (round.find_here(binding.name) != nullptr) {
+// The scope of the variables lives as long as the loop; each round gives them new values.
+void Evaluator::declare_variables(const ast::Loop& parts, Scope& round) {
+  for (NodeRef name : {parts.first, parts.second}) {
+    if (!name) continue;
+    if (round.find_here(name.text()) != nullptr) {
       session_.error(DiagnosticKind::duplicate_name, name.span(), fmt::format("`{}` names both the index and the element", printable(name.text())));
-      return;
+      continue;
     }
+    Binding binding{.name = name.text(), .span = name.span(), .kind = BindingKind::loop_variable, .value = {}, .node = {}};
+    binding.lint_unused = false;
     round.add(std::move(binding));
-  };
-  if (parts.second) {
-    declare(parts.first, index);
-    declare(parts.second, element != nullptr ? *element : index);
-  } else {
-    declare(parts.first, element != nullptr ? *element : index);
   }
+}
+
+bool Evaluator::run_round(const ast::Loop& parts, Scope& round, Value index, Value element, const std::function<bool(Scope&)>& body) {
+  if (!session_.spend(steps_per_scope, parts.first.span())) return false;
+  auto& variables = round.bindings();
+  if (variables.size() == 2) variables[0].value = std::move(index);
+  variables.back().value = std::move(element);
   return body(round);
 }
 
@@ -130,35 +130,36 @@ void Evaluator::loop(const ast::Loop& parts, Scope& scope, const std::function<b
 void Evaluator::loop_over_range(const ast::Loop& parts, Scope& scope, const std::function<bool(Scope&)>& body) {
   const ast::Range range = ast::range_of(parts.range);
   if (!range.low || !range.high) return;
+  Scope variables(&scope);
   const Value low = coerce(session_, evaluate(range.low, scope), integer_type, {.subject = "for", .node = range.low});
   const Value high = coerce(session_, evaluate(range.high, scope), integer_type, {.subject = "for", .node = range.high});
+  declare_variables(parts, variables);
   if (low.poisoned() || high.poisoned() || !low.known || !high.known) {
-    const Value variable = low.poisoned() || high.poisoned() ? Value{} : make_unknown(Type::integer);
     const Session::CheckOnly check(session_);
-    run_round(parts, scope, make_unknown(Type::integer), &variable, body);
+    run_round(parts, variables, make_unknown(Type::integer), low.poisoned() || high.poisoned() ? Value{} : make_unknown(Type::integer), body);
     return;
   }
   std::int64_t index = 0;
   for (std::int64_t i = low.integer; range.closed ? i <= high.integer : i < high.integer; ++i, ++index) {
-    const Value element = make_int(i);
-    if (!run_round(parts, scope, make_int(index), &element, body)) return;
+    if (!run_round(parts, variables, make_int(index), make_int(i), body)) return;
     if (i == high.integer) return;  // the largest integer has no successor
   }
 }
 
 void Evaluator::loop_over_list(const ast::Loop& parts, Scope& scope, const std::function<bool(Scope&)>& body) {
   if (!parts.list) return;
+  Scope variables(&scope);
   const Value list = accepted(session_, evaluate(parts.list, scope), Accept::list, {.subject = "for", .node = parts.list});
+  declare_variables(parts, variables);
   if (list.poisoned() || !list.known) {
     const Value element = is_listlike(list) && element_count(list) > 0 ? type_of(element_of(list, 0)) : Value{};
     const Session::CheckOnly check(session_);
-    run_round(parts, scope, make_unknown(Type::integer), &element, body);
+    run_round(parts, variables, make_unknown(Type::integer), element, body);
     return;
   }
   const std::size_t count = element_count(list);
   for (std::size_t i = 0; i < count; ++i) {
-    const Value element = element_of(list, i);
-    if (!run_round(parts, scope, make_int(static_cast<std::int64_t>(i)), &element, body)) return;
+    if (!run_round(parts, variables, make_int(static_cast<std::int64_t>(i)), element_of(list, i), body)) return;
   }
 }
 

@@ -27,9 +27,9 @@ std::string_view text_of(BindingKind kind) {
 }
 
 Binding* Scope::find_here(std::string_view name) {
-  if (!index_.empty()) {
-    const auto place = index_.find(name);
-    return place == index_.end() ? nullptr : &bindings_[place->second];
+  if (bindings_.size() > max_unindexed) {
+    const auto place = extras_->index.find(name);
+    return place == extras_->index.end() ? nullptr : &bindings_[place->second];
   }
   for (Binding& binding : bindings_) {
     if (binding.name == name) return &binding;
@@ -45,14 +45,16 @@ Scope::Found Scope::find(std::string_view name, Span use) {
   return {};
 }
 
+Scope::Extras& Scope::extras() {
+  if (extras_ == nullptr) extras_ = std::make_unique<Extras>();
+  return *extras_;
+}
+
 Binding& Scope::add(Binding binding) {
   bindings_.push_back(std::move(binding));
   if (bindings_.size() > max_unindexed) {
-    if (index_.empty()) {
-      for (std::size_t i = 0; i < bindings_.size(); ++i) index_.emplace(bindings_[i].name, static_cast<std::uint32_t>(i));
-    } else {
-      index_.emplace(bindings_.back().name, static_cast<std::uint32_t>(bindings_.size() - 1));
-    }
+    auto& index = extras().index;
+    for (std::size_t i = index.size(); i < bindings_.size(); ++i) index.emplace(bindings_[i].name, static_cast<std::uint32_t>(i));
   }
   return bindings_.back();
 }
@@ -69,12 +71,13 @@ std::vector<std::string_view> Scope::visible_names(Span use) const {
 
 const std::shared_ptr<Scope>& Scope::name_space(std::string_view name) const {
   static const std::shared_ptr<Scope> none;
-  const auto place = name_spaces_.find(name);
-  return place == name_spaces_.end() ? none : place->second;
+  if (extras_ == nullptr) return none;
+  const auto place = extras_->name_spaces.find(name);
+  return place == extras_->name_spaces.end() ? none : place->second;
 }
 
 void Scope::add_name_space(std::string_view name, std::shared_ptr<Scope> scope) {
-  name_spaces_.emplace(name, std::move(scope));
+  extras().name_spaces.emplace(name, std::move(scope));
 }
 
 }  // namespace scenec::frontend

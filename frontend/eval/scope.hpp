@@ -58,8 +58,13 @@ class Scope {
  private:
   Scope* parent_;
   std::vector<Binding> bindings_;
-  std::unordered_map<std::string_view, std::uint32_t> index_;  // only of blocks with many names
-  std::unordered_map<std::string_view, std::shared_ptr<Scope>> name_spaces_;
+  // What few scopes have, so that the many small ones cost nothing to make.
+  struct Extras {
+    std::unordered_map<std::string_view, std::uint32_t> index;  // only of blocks with many names
+    std::unordered_map<std::string_view, std::shared_ptr<Scope>> name_spaces;
+  };
+  Extras& extras();
+  std::unique_ptr<Extras> extras_;
 };
 
 }  // namespace scenec::frontend
