@@ -107,16 +107,19 @@ Value accepted(Session& session, const Value& value, Accept accept, const Need& 
 std::optional<std::size_t> choice_of(Session& session, const Value& value, std::span<const std::string_view> names, const Need& need) {
   if (value.poisoned()) return std::nullopt;
   if (!value.is(Type::enumeration)) {
-    type_error(session, need, fmt::format("one of the choices {}", quoted_list(names)), value);
+    type_error(session, need, fmt::format("a choice such as `.{}`", names.front()), value);
     return std::nullopt;
   }
   if (value.heap == nullptr) return std::nullopt;  // only its type is known
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == value.text()) return i;
   }
+  std::vector<std::string> written;  // as an author writes them
+  for (std::string_view name : names) written.push_back('.' + std::string(name));
+  const std::vector<std::string_view> legal(written.begin(), written.end());
+  const std::string word = '.' + value.text();
   session.report(unknown_word(DiagnosticKind::unknown_enum_value, need.span(),
-                              fmt::format("{} has no choice `.{}`", need.text(), printable(value.text())), value.text(), names,
-                              "choices"));
+                              fmt::format("{} has no choice `{}`", need.text(), printable(word)), word, legal, "choices"));
   return std::nullopt;
 }
 

@@ -57,7 +57,6 @@ Value plain_angle(Session& session, const Need& need) {
   if (node.is(SyntaxKind::number_literal) ||
       (node.is(SyntaxKind::unary) && node.find_child(SyntaxKind::number_literal))) {
     const std::string repaired = std::string(node.text()) + "deg";
-    diagnostic.hints.push_back(fmt::format("degrees are written `{}`", printable(repaired)));
     diagnostic.fixits.push_back({need.span(), repaired});
   } else {
     diagnostic.hints.push_back("multiply by `1deg` or `1rad`");

@@ -39,8 +39,11 @@ std::shared_ptr<Scope> Modules::load(const std::string& written, NodeRef use) {
     return module.loading ? nullptr : module.scope;
   }
   if (open_.size() >= max_include_depth || modules_.size() > max_include_files) {
+    const bool deep = open_.size() >= max_include_depth;
     session_.error(DiagnosticKind::too_many_includes, use.span(),
-                   fmt::format("there are more than {} included files, or they are nested deeper than {}", max_include_files, max_include_depth));
+                   deep ? fmt::format("includes are nested deeper than {}", max_include_depth)
+                        : fmt::format("there are more than {} included files", max_include_files));
+    module.loading = false;
     return nullptr;
   }
   module.tree = read(path, use);
