@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "base/text.hpp"
 #include "frontend/check/check_scene.hpp"
 #include "frontend/course/translate.hpp"
@@ -19,6 +22,15 @@ grammar::SyntaxTree translated(const LoadedFile& loaded, const std::string& path
   course::Translation translation = course::translate(loaded.tree, how, files, sink);
   const FileId file = sources.add_derived(loaded.file, std::move(translation.text), std::move(translation.ranges));
   return grammar::parse_sdl(file, sources.text(file), sink);
+}
+
+// Where the text itself could not be read to its end, what seems missing in it is a consequence.
+bool is_cut_off(const DiagnosticSink& sink) {
+  const std::vector<Diagnostic> found = sink.sorted();
+  return std::any_of(found.begin(), found.end(), [](const Diagnostic& diagnostic) {
+    return info_of(diagnostic.kind).is_limit() || diagnostic.kind == DiagnosticKind::control_character ||
+           diagnostic.kind == DiagnosticKind::text_not_utf8;
+  });
 }
 
 }  // namespace
@@ -39,7 +51,9 @@ std::optional<LoadedFile> load(const std::string& path, const CompileOptions& op
     loaded.tree = grammar::parse_sdl(loaded.file, text, sink);
   } else {
     loaded.tree = grammar::parse_course(loaded.file, text, sink);
-    loaded.native = translated(loaded, path, options, files, sources, sink, output_directory);
+    DiagnosticSink consequences;
+    loaded.native =
+        translated(loaded, path, options, files, sources, is_cut_off(sink) ? consequences : sink, output_directory);
   }
   return loaded;
 }

@@ -13,8 +13,9 @@ namespace scenec::grammar {
 
 namespace {
 
-// People read the first dozen; beyond this the text is not in this language at all.
-constexpr std::uint32_t most_reports = 200;
+// People read the first dozen; beyond this the text is not in this language at all. With the message
+// that says so they are the hundred that are printed.
+constexpr std::uint32_t most_reports = 99;
 
 TriviaKind trivia_kind(std::string_view comment) {
   if (comment.starts_with("/*")) return TriviaKind::block_comment;

@@ -47,7 +47,7 @@ std::optional<Compiled> compile(scenec::FileSystem& files, const std::string& pa
   const scenec::frontend::CompileOptions options{
       .dialect = {}, .params = {}, .method = {}, .library = true};
   const auto scene = scenec::frontend::compile(path, options, files, sources, sink);
-  if (!scene) return std::nullopt;
+  if (!scene || scene->cameras.empty()) return std::nullopt;  // a library dumps as nothing
   return Compiled{scene->hash.hex(), scenec::ir::dump_text(*scene, {})};
 }
 
