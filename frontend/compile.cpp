@@ -16,11 +16,17 @@ namespace scenec::frontend {
 namespace {
 
 // Course text as native text, in a file whose places lead back to what the author wrote.
-grammar::SyntaxTree translated(const LoadedFile& loaded, const std::string& path, const CompileOptions& options, FileSystem& files,
-                               SourceMap& sources, DiagnosticSink& sink, const std::optional<std::string>& output_directory) {
-  const course::TranslateOptions how{.scene_path = path, .output_directory = output_directory.value_or(directory_of(path)), .method = options.method};
+grammar::SyntaxTree translated(const LoadedFile& loaded, const std::string& path,
+                               const CompileOptions& options, FileSystem& files, SourceMap& sources,
+                               DiagnosticSink& sink,
+                               const std::optional<std::string>& output_directory) {
+  const course::TranslateOptions how{
+      .scene_path = path,
+      .output_directory = output_directory.value_or(directory_of(path)),
+      .method = options.method};
   course::Translation translation = course::translate(loaded.tree, how, files, sink);
-  const FileId file = sources.add_derived(loaded.file, std::move(translation.text), std::move(translation.ranges));
+  const FileId file =
+      sources.add_derived(loaded.file, std::move(translation.text), std::move(translation.ranges));
   return grammar::parse_sdl(file, sources.text(file), sink);
 }
 
@@ -28,19 +34,23 @@ grammar::SyntaxTree translated(const LoadedFile& loaded, const std::string& path
 bool is_cut_off(const DiagnosticSink& sink) {
   const std::vector<Diagnostic> found = sink.sorted();
   return std::any_of(found.begin(), found.end(), [](const Diagnostic& diagnostic) {
-    return info_of(diagnostic.kind).is_limit() || diagnostic.kind == DiagnosticKind::control_character ||
+    return info_of(diagnostic.kind).is_limit() ||
+           diagnostic.kind == DiagnosticKind::control_character ||
            diagnostic.kind == DiagnosticKind::text_not_utf8;
   });
 }
 
 }  // namespace
 
-std::optional<LoadedFile> load(const std::string& path, const CompileOptions& options, FileSystem& files, SourceMap& sources,
-                               DiagnosticSink& sink, const std::optional<std::string>& output_directory) {
+std::optional<LoadedFile> load(const std::string& path, const CompileOptions& options,
+                               FileSystem& files, SourceMap& sources, DiagnosticSink& sink,
+                               const std::optional<std::string>& output_directory) {
   const grammar::ParseLimits limits;
   auto content = files.read(path, limits.file);
   if (!content) {
-    sink.report(Diagnostic(DiagnosticKind::file_unreadable, {}, fmt::format("cannot read {}: {}", quoted_string(path), text_of(content.error()))));
+    sink.report(Diagnostic(
+        DiagnosticKind::file_unreadable, {},
+        fmt::format("cannot read {}: {}", quoted_string(path), text_of(content.error()))));
     return std::nullopt;
   }
   const std::string_view text = content.value().bytes;
@@ -52,21 +62,21 @@ std::optional<LoadedFile> load(const std::string& path, const CompileOptions& op
   } else {
     loaded.tree = grammar::parse_course(loaded.file, text, sink);
     DiagnosticSink consequences;
-    loaded.native =
-        translated(loaded, path, options, files, sources, is_cut_off(sink) ? consequences : sink, output_directory);
+    loaded.native = translated(loaded, path, options, files, sources,
+                               is_cut_off(sink) ? consequences : sink, output_directory);
   }
   return loaded;
 }
 
-std::optional<ir::Scene> compile(const std::string& path, const CompileOptions& options, FileSystem& files, SourceMap& sources,
-                                 DiagnosticSink& sink) {
+std::optional<ir::Scene> compile(const std::string& path, const CompileOptions& options,
+                                 FileSystem& files, SourceMap& sources, DiagnosticSink& sink) {
   const auto loaded = load(path, options, files, sources, sink);
   if (!loaded) return std::nullopt;
   return compile(*loaded, options, files, sources, sink);
 }
 
-std::optional<ir::Scene> compile(const LoadedFile& file, const CompileOptions& options, FileSystem& files, SourceMap& sources,
-                                 DiagnosticSink& sink) {
+std::optional<ir::Scene> compile(const LoadedFile& file, const CompileOptions& options,
+                                 FileSystem& files, SourceMap& sources, DiagnosticSink& sink) {
   const grammar::SyntaxTree& tree = file.native_tree();
   Session session(options, files, sources, sink);
   Lowering lowering(session);

@@ -23,10 +23,10 @@ struct ParamSetting {
 };
 
 struct CompileOptions {
-  std::optional<grammar::Dialect> dialect;    // none: by grammar::dialect_of
+  std::optional<grammar::Dialect> dialect;  // none: by grammar::dialect_of
   std::vector<ParamSetting> params;
-  std::optional<ir::Method> method;           // course only: replaces the method found by vocabulary
-  bool library = false;                       // accept a file of declarations alone
+  std::optional<ir::Method> method;  // course only: replaces the method found by vocabulary
+  bool library = false;              // accept a file of declarations alone
   std::uint64_t max_items = 2'000'000;
 };
 
@@ -35,22 +35,24 @@ struct CompileOptions {
 struct LoadedFile {
   grammar::Dialect dialect = grammar::Dialect::sdl;
   FileId file;
-  grammar::SyntaxTree tree;                     // of the text as written
-  std::optional<grammar::SyntaxTree> native;    // course files only
+  grammar::SyntaxTree tree;                   // of the text as written
+  std::optional<grammar::SyntaxTree> native;  // course files only
   [[nodiscard]] const grammar::SyntaxTree& native_tree() const { return native ? *native : tree; }
 };
 
 // `output_directory` decides how paths in a translated course file are written (relative to it):
 // `convert` passes the directory it writes to, compilation the scene's own directory.
 // nullopt: the file could not be read (reported).
-[[nodiscard]] std::optional<LoadedFile> load(const std::string& path, const CompileOptions& options, FileSystem& files,
-                                             SourceMap& sources, DiagnosticSink& sink,
-                                             const std::optional<std::string>& output_directory = std::nullopt);
+[[nodiscard]] std::optional<LoadedFile> load(
+    const std::string& path, const CompileOptions& options, FileSystem& files, SourceMap& sources,
+    DiagnosticSink& sink, const std::optional<std::string>& output_directory = std::nullopt);
 
 // nullopt when there was an error (reported). A scene with lints is a scene.
-[[nodiscard]] std::optional<ir::Scene> compile(const std::string& path, const CompileOptions& options, FileSystem& files,
+[[nodiscard]] std::optional<ir::Scene> compile(const std::string& path,
+                                               const CompileOptions& options, FileSystem& files,
                                                SourceMap& sources, DiagnosticSink& sink);
-[[nodiscard]] std::optional<ir::Scene> compile(const LoadedFile& file, const CompileOptions& options, FileSystem& files,
+[[nodiscard]] std::optional<ir::Scene> compile(const LoadedFile& file,
+                                               const CompileOptions& options, FileSystem& files,
                                                SourceMap& sources, DiagnosticSink& sink);
 
 // The native tree without punctuation and trivia, one construct a line: `dump --stage ast`.

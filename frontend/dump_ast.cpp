@@ -1,4 +1,5 @@
-// `dump --stage ast`: the native tree without punctuation, keywords and trivia, one construct a line.
+// `dump --stage ast`: the native tree without punctuation, keywords and trivia, one construct a
+// line.
 #include <string>
 #include <vector>
 
@@ -22,10 +23,14 @@ bool is_shown_token(NodeRef node) {
     case SyntaxKind::color:
     case SyntaxKind::enum_value:
     case SyntaxKind::operator_token:
-    case SyntaxKind::error_text: return true;
-    case SyntaxKind::keyword: return node.text() == "true" || node.text() == "false";
-    case SyntaxKind::punctuation: return node.text() == "..<" || node.text() == "..";
-    default: return false;
+    case SyntaxKind::error_text:
+      return true;
+    case SyntaxKind::keyword:
+      return node.text() == "true" || node.text() == "false";
+    case SyntaxKind::punctuation:
+      return node.text() == "..<" || node.text() == "..";
+    default:
+      return false;
   }
 }
 

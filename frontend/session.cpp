@@ -14,18 +14,21 @@ namespace {
 constexpr std::size_t max_expansion_notes = 8;
 }
 
-Session::Session(const CompileOptions& compile_options, FileSystem& file_system, SourceMap& source_map,
-                 DiagnosticSink& diagnostic_sink)
+Session::Session(const CompileOptions& compile_options, FileSystem& file_system,
+                 SourceMap& source_map, DiagnosticSink& diagnostic_sink)
     : options(compile_options), files(file_system), sources(source_map), sink(diagnostic_sink) {}
 
 void Session::report(Diagnostic diagnostic) {
   std::size_t notes = 0;
   for (auto expansion = expansions_.rbegin(); expansion != expansions_.rend(); ++expansion) {
     if (notes++ == max_expansion_notes) {
-      diagnostic.notes.push_back({fmt::format("and {} more calls further out", expansions_.size() - max_expansion_notes), {}});
+      diagnostic.notes.push_back(
+          {fmt::format("and {} more calls further out", expansions_.size() - max_expansion_notes),
+           {}});
       break;
     }
-    diagnostic.notes.push_back({fmt::format("expanded from `{}` here", printable(expansion->name)), expansion->span});
+    diagnostic.notes.push_back(
+        {fmt::format("expanded from `{}` here", printable(expansion->name)), expansion->span});
   }
   sink.report(std::move(diagnostic));
 }
@@ -51,7 +54,8 @@ void Session::lint(Diagnostic diagnostic) {
 Session::Expanding::Expanding(Session& owner, std::string_view name, Span span)
     : session(owner), before(owner.expansion_origin_) {
   if (!session.checking_only()) {
-    session.expansion_origin_ = session.builder.add_origin({span, before, ir::OriginKind::expanded_from});
+    session.expansion_origin_ =
+        session.builder.add_origin({span, before, ir::OriginKind::expanded_from});
   }
   session.expansions_.push_back({name, span});
 }
@@ -62,7 +66,8 @@ Session::Expanding::~Expanding() {
 }
 
 ir::OriginId Session::add_origin(Span span) {
-  const auto kind = expansion_origin_.valid() ? ir::OriginKind::expanded_from : ir::OriginKind::written;
+  const auto kind =
+      expansion_origin_.valid() ? ir::OriginKind::expanded_from : ir::OriginKind::written;
   return builder.add_origin({span, expansion_origin_, kind});
 }
 
@@ -108,7 +113,8 @@ Diagnostic unknown_word(DiagnosticKind kind, Span span, std::string message, std
   if (const auto nearest = nearest_name(word, legal)) {
     diagnostic.hints.push_back(fmt::format("did you mean `{}`?", *nearest));
   }
-  if (!legal.empty()) diagnostic.hints.push_back(fmt::format("{}: {}", legal_title, quoted_list(legal)));
+  if (!legal.empty())
+    diagnostic.hints.push_back(fmt::format("{}: {}", legal_title, quoted_list(legal)));
   return diagnostic;
 }
 

@@ -61,7 +61,8 @@ class Session {
 
   // The lints allowed for an item and what is inside it.
   struct Allowing {
-    Allowing(Session& owner, std::span<const DiagnosticKind> kinds) : session(owner), before(owner.allowed_.size()) {
+    Allowing(Session& owner, std::span<const DiagnosticKind> kinds)
+        : session(owner), before(owner.allowed_.size()) {
       session.allowed_.insert(session.allowed_.end(), kinds.begin(), kinds.end());
     }
     ~Allowing() { session.allowed_.resize(before); }
@@ -118,7 +119,9 @@ class Session {
 };
 
 // A diagnostic about a name nobody knows: "did you mean" and the legal names.
-[[nodiscard]] Diagnostic unknown_word(DiagnosticKind kind, Span span, std::string message, std::string_view word,
-                                      std::span<const std::string_view> legal, std::string_view legal_title);
+[[nodiscard]] Diagnostic unknown_word(DiagnosticKind kind, Span span, std::string message,
+                                      std::string_view word,
+                                      std::span<const std::string_view> legal,
+                                      std::string_view legal_title);
 
 }  // namespace scenec::frontend

@@ -27,7 +27,9 @@ Item item_of(NodeRef node) {
   bool behind_colon = false;
   for (NodeRef child : node.children()) {
     switch (child.kind()) {
-      case SyntaxKind::annotation: item.annotated = true; break;
+      case SyntaxKind::annotation:
+        item.annotated = true;
+        break;
       case SyntaxKind::name:
         if (behind_colon || (kind_first && !item.kind)) {
           item.kind = child;
@@ -35,11 +37,21 @@ Item item_of(NodeRef node) {
           item.name = child;
         }
         break;
-      case SyntaxKind::punctuation: behind_colon = child.text() == ":"; break;
-      case SyntaxKind::type: item.type = child; break;
-      case SyntaxKind::range: item.range = child; break;
-      case SyntaxKind::parameters: item.parameters = child; break;
-      case SyntaxKind::block: item.block = child; break;
+      case SyntaxKind::punctuation:
+        behind_colon = child.text() == ":";
+        break;
+      case SyntaxKind::type:
+        item.type = child;
+        break;
+      case SyntaxKind::range:
+        item.range = child;
+        break;
+      case SyntaxKind::parameters:
+        item.parameters = child;
+        break;
+      case SyntaxKind::block:
+        item.block = child;
+        break;
       default:
         if (is_expression(child.kind()) && !item.expression) item.expression = child;
     }
@@ -77,32 +89,52 @@ std::vector<Argument> arguments_of(NodeRef arguments) {
   std::vector<Argument> list;
   if (!arguments) return list;
   for (NodeRef child : arguments.children()) {
-    if (child.is(SyntaxKind::argument)) list.push_back({child.find_child(SyntaxKind::name), expression_of(child)});
+    if (child.is(SyntaxKind::argument))
+      list.push_back({child.find_child(SyntaxKind::name), expression_of(child)});
   }
   return list;
 }
 
 std::string_view item_words(SyntaxKind kind) {
   switch (kind) {
-    case SyntaxKind::include: return "`include`";
-    case SyntaxKind::param: return "`param`";
-    case SyntaxKind::let: return "`let`";
-    case SyntaxKind::fn: return "`fn`";
-    case SyntaxKind::macro: return "`macro`";
-    case SyntaxKind::proto: return "`proto`";
-    case SyntaxKind::material: return "a material";
-    case SyntaxKind::light: return "a light";
-    case SyntaxKind::camera: return "a camera";
-    case SyntaxKind::render: return "`render`";
-    case SyntaxKind::group: return "a group";
-    case SyntaxKind::instance: return "an instance";
-    case SyntaxKind::shape: return "a shape";
-    case SyntaxKind::call_item: return "a macro call";
-    case SyntaxKind::for_item: return "`for`";
-    case SyntaxKind::if_item: return "`if`";
-    case SyntaxKind::assert_item: return "`assert`";
-    case SyntaxKind::field: return "a key";
-    default: return "this";
+    case SyntaxKind::include:
+      return "`include`";
+    case SyntaxKind::param:
+      return "`param`";
+    case SyntaxKind::let:
+      return "`let`";
+    case SyntaxKind::fn:
+      return "`fn`";
+    case SyntaxKind::macro:
+      return "`macro`";
+    case SyntaxKind::proto:
+      return "`proto`";
+    case SyntaxKind::material:
+      return "a material";
+    case SyntaxKind::light:
+      return "a light";
+    case SyntaxKind::camera:
+      return "a camera";
+    case SyntaxKind::render:
+      return "`render`";
+    case SyntaxKind::group:
+      return "a group";
+    case SyntaxKind::instance:
+      return "an instance";
+    case SyntaxKind::shape:
+      return "a shape";
+    case SyntaxKind::call_item:
+      return "a macro call";
+    case SyntaxKind::for_item:
+      return "`for`";
+    case SyntaxKind::if_item:
+      return "`if`";
+    case SyntaxKind::assert_item:
+      return "`assert`";
+    case SyntaxKind::field:
+      return "a key";
+    default:
+      return "this";
   }
 }
 

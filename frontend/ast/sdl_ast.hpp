@@ -14,8 +14,8 @@ using grammar::SyntaxKind;
 
 // First child that is an expression (a node, no token) at or behind the position of `first`.
 [[nodiscard]] inline bool is_expression(SyntaxKind kind) {
-  return kind >= SyntaxKind::number_literal && kind <= SyntaxKind::or_chain && kind != SyntaxKind::arguments &&
-         kind != SyntaxKind::argument;
+  return kind >= SyntaxKind::number_literal && kind <= SyntaxKind::or_chain &&
+         kind != SyntaxKind::arguments && kind != SyntaxKind::argument;
 }
 [[nodiscard]] NodeRef expression_of(NodeRef node);
 
@@ -27,7 +27,8 @@ struct Field {
 [[nodiscard]] Field field_of(NodeRef node);
 
 // Every item with a block or a declared name.
-//   shape: `kind [name] block`; light, camera, material: `[name] : kind block`; others `[name] block`.
+//   shape: `kind [name] block`; light, camera, material: `[name] : kind block`; others `[name]
+//   block`.
 struct Item {
   NodeRef name;
   NodeRef kind;
@@ -46,7 +47,7 @@ struct Loop {
   NodeRef second;  // the element when there are two names
   NodeRef range;
   NodeRef list;
-  NodeRef body;    // block, or the expression behind the colon
+  NodeRef body;  // block, or the expression behind the colon
 };
 [[nodiscard]] Loop loop_of(NodeRef node);
 

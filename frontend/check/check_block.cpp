@@ -31,7 +31,8 @@ Field* Fields::find(std::string_view name) {
 
 void Fields::add(Session& session, const Field& field) {
   if (const Field* first = find(field.name)) {
-    session.error(Diagnostic(DiagnosticKind::duplicate_key, field.name_node.span(), fmt::format("`{}` is given twice", printable(field.name)))
+    session.error(Diagnostic(DiagnosticKind::duplicate_key, field.name_node.span(),
+                             fmt::format("`{}` is given twice", printable(field.name)))
                       .note("first given here", first->name_node.span()));
     return;
   }
@@ -59,14 +60,16 @@ void BlockChecker::check_rule(const ir::KeyRule& rule) {
     if (given.empty() || given.size() == names.size()) return;
     sound_ = false;
     session_.error(DiagnosticKind::keys_belong_together, written(given[0])->name_node.span(),
-                   fmt::format("{} belong together; found only {}", quoted_words(names, " and "), quoted_words(given, " and ")));
+                   fmt::format("{} belong together; found only {}", quoted_words(names, " and "),
+                               quoted_words(given, " and ")));
     return;
   }
   if (given.size() > 1) {
     sound_ = false;
     Diagnostic diagnostic(DiagnosticKind::conflicting_keys, written(given[1])->name_node.span(),
                           fmt::format("{} exclude each other", quoted_words(given, " and ")));
-    diagnostic.notes.push_back({fmt::format("`{}` is given here", given[0]), written(given[0])->name_node.span()});
+    diagnostic.notes.push_back(
+        {fmt::format("`{}` is given here", given[0]), written(given[0])->name_node.span()});
     session_.error(std::move(diagnostic));
   } else if (given.empty() && rule.kind == Kind::exactly_one) {
     missing_.push_back(names);
@@ -81,7 +84,8 @@ void BlockChecker::report_missing() {
     if (i > 0) text += i + 1 == missing_.size() ? " and " : ", ";
     text += quoted_words(missing_[i], " or ");
   }
-  session_.error(DiagnosticKind::missing_key, place_, fmt::format("`{}` needs {}", printable(subject_), text));
+  session_.error(DiagnosticKind::missing_key, place_,
+                 fmt::format("`{}` needs {}", printable(subject_), text));
 }
 
 bool BlockChecker::has_unknown() const {
@@ -95,19 +99,25 @@ void BlockChecker::report_unknown(const std::vector<std::string_view>& legal) {
   for (const Field& field : fields_.all()) {
     if (field.taken) continue;
     sound_ = false;
-    session_.report(unknown_word(DiagnosticKind::unknown_key, field.name_node.span(),
-                                 fmt::format("`{}` has no key `{}`", printable(subject_), printable(field.name)), field.name, legal, "keys"));
-    static_cast<void>(evaluator_.evaluate(field.expression, scope_));  // its own mistakes, and names it uses
+    session_.report(unknown_word(
+        DiagnosticKind::unknown_key, field.name_node.span(),
+        fmt::format("`{}` has no key `{}`", printable(subject_), printable(field.name)), field.name,
+        legal, "keys"));
+    static_cast<void>(
+        evaluator_.evaluate(field.expression, scope_));  // its own mistakes, and names it uses
     // A misspelt key is not missing as well.
     const auto meant = nearest_name(field.name, legal);
-    std::erase_if(missing_, [&](const auto& names) { return meant && std::find(names.begin(), names.end(), *meant) != names.end(); });
+    std::erase_if(missing_, [&](const auto& names) {
+      return meant && std::find(names.begin(), names.end(), *meant) != names.end();
+    });
   }
 }
 
 void BlockChecker::report_block_for_value(const Field& field) {
   sound_ = false;
-  session_.error(DiagnosticKind::type_mismatch, field.name_node.span(),
-                 fmt::format("`{0}` takes a value, not a block: `{0} = ...;`", printable(field.name)));
+  session_.error(
+      DiagnosticKind::type_mismatch, field.name_node.span(),
+      fmt::format("`{0}` takes a value, not a block: `{0} = ...;`", printable(field.name)));
 }
 
 void BlockChecker::report_value_for_block(const Field& field) {

@@ -27,9 +27,15 @@ class FieldCollector {
 class BlockChecker {
  public:
   // `subject` is how messages call the block; `place` is where missing keys are reported.
-  BlockChecker(Session& session, Evaluator& evaluator, FieldCollector& collector, Scope& scope, Fields& fields,
-               std::string_view subject, Span place)
-      : session_(session), evaluator_(evaluator), collector_(collector), scope_(scope), fields_(fields), subject_(subject), place_(place) {}
+  BlockChecker(Session& session, Evaluator& evaluator, FieldCollector& collector, Scope& scope,
+               Fields& fields, std::string_view subject, Span place)
+      : session_(session),
+        evaluator_(evaluator),
+        collector_(collector),
+        scope_(scope),
+        fields_(fields),
+        subject_(subject),
+        place_(place) {}
 
   // Reads all keys of T. Keys left out keep the value they have in `out`.
   template <ir::HasSchema T>
@@ -66,10 +72,13 @@ class BlockChecker {
       read_block(*field, out.*key.member);
     } else if (field->block) {
       report_block_for_value(*field);
-    } else if constexpr (!std::same_as<Member, ir::CameraId>) {  // cameras have their own table of names
+    } else if constexpr (!std::same_as<Member,
+                                       ir::CameraId>) {  // cameras have their own table of names
       const Value value = evaluator_.evaluate(field->expression, scope_);
       const Need need{.subject = field->name, .function = {}, .node = field->expression};
-      if (!field->expression || !convert(KeyContext{session_, need, key.range}, value, out.*key.member)) sound_ = false;
+      if (!field->expression ||
+          !convert(KeyContext{session_, need, key.range}, value, out.*key.member))
+        sound_ = false;
     }
   }
   template <ir::HasSchema T>
@@ -78,8 +87,10 @@ class BlockChecker {
     Fields inner;
     Scope scope(&scope_);
     collector_.collect(field.block, scope, inner);
-    for (const Field& key : inner.all()) nested_.push_back({std::string(field.name) + '.' + std::string(key.name), key});
-    BlockChecker checker(session_, evaluator_, collector_, scope, inner, field.name, field.name_node.span());
+    for (const Field& key : inner.all())
+      nested_.push_back({std::string(field.name) + '.' + std::string(key.name), key});
+    BlockChecker checker(session_, evaluator_, collector_, scope, inner, field.name,
+                         field.name_node.span());
     checker.read(out);
     checker.template finish<T>();
     sound_ = sound_ && checker.sound();

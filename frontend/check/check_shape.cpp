@@ -22,7 +22,9 @@ Span place_of(const BlockChecker& checker, Member Owner::*member, Span head) {
 struct Vector {
   double x, y, z;
 };
-double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double dot(const Vector& a, const Vector& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 Vector cross(const Vector& a, const Vector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -31,7 +33,9 @@ Vector normalised(const Vector& v) {
   const double largest = std::fmax(std::fabs(v.x), std::fmax(std::fabs(v.y), std::fabs(v.z)));
   return largest > 0 ? Vector{v.x / largest, v.y / largest, v.z / largest} : v;
 }
-bool is_zero(const Vector& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+bool is_zero(const Vector& v) {
+  return v.x == 0 && v.y == 0 && v.z == 0;
+}
 
 // The sine of the angle between them is below what rounding leaves of a sideways direction.
 bool parallel(const Vector& a, const Vector& b) {
@@ -44,78 +48,104 @@ bool parallel(const Vector& a, const Vector& b) {
 
 void check_shape(Session& session, const ir::Box& box, const BlockChecker& checker, Span head) {
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
-  const std::array<double, 3> low{box.min.x, box.min.y, box.min.z}, high{box.max.x, box.max.y, box.max.z};
+  const std::array<double, 3> low{box.min.x, box.min.y, box.min.z},
+      high{box.max.x, box.max.y, box.max.z};
   for (std::size_t i = 0; i < 3; ++i) {
     if (low[i] <= high[i]) continue;
     session.error(DiagnosticKind::inverted_box, place_of<ir::Box>(checker, &ir::Box::max, head),
-                  fmt::format("the {0} of `{3}` is {1} m; needs at least that of `{4}`, {2} m", axes[i], short_number_text(high[i]),
-                              short_number_text(low[i]), key_name<ir::Box>(&ir::Box::max), key_name<ir::Box>(&ir::Box::min)));
+                  fmt::format("the {0} of `{3}` is {1} m; needs at least that of `{4}`, {2} m",
+                              axes[i], short_number_text(high[i]), short_number_text(low[i]),
+                              key_name<ir::Box>(&ir::Box::max), key_name<ir::Box>(&ir::Box::min)));
     return;
   }
 }
 
-void check_shape(Session& session, const ir::Cylinder& cylinder, const BlockChecker& checker, Span head) {
+void check_shape(Session& session, const ir::Cylinder& cylinder, const BlockChecker& checker,
+                 Span head) {
   if (cylinder.base != cylinder.top) return;
-  session.error(DiagnosticKind::zero_extent, place_of<ir::Cylinder>(checker, &ir::Cylinder::top, head),
-                fmt::format("the cylinder has no height: `{}` and `{}` are one point", key_name<ir::Cylinder>(&ir::Cylinder::base),
+  session.error(DiagnosticKind::zero_extent,
+                place_of<ir::Cylinder>(checker, &ir::Cylinder::top, head),
+                fmt::format("the cylinder has no height: `{}` and `{}` are one point",
+                            key_name<ir::Cylinder>(&ir::Cylinder::base),
                             key_name<ir::Cylinder>(&ir::Cylinder::top)));
 }
 
 void check_shape(Session& session, const ir::Mesh& mesh, const BlockChecker& checker, Span head) {
   const std::size_t vertices = mesh.vertices.size();
-  const auto wrong = [&](Span span, std::string text) { session.error(DiagnosticKind::mesh_lists, span, std::move(text)); };
+  const auto wrong = [&](Span span, std::string text) {
+    session.error(DiagnosticKind::mesh_lists, span, std::move(text));
+  };
   const bool from_file = mesh.file.valid();
   const std::size_t normals = mesh.normals.list.size(), uvs = mesh.uvs.size();
   if (normals > 0 && (from_file || normals != vertices)) {
     wrong(place_of<ir::Mesh>(checker, &ir::Mesh::normals, head),
-          from_file ? std::string("a mesh from a file takes its normals from there") : fmt::format("there are {} normals for {} vertices", normals, vertices));
+          from_file ? std::string("a mesh from a file takes its normals from there")
+                    : fmt::format("there are {} normals for {} vertices", normals, vertices));
   }
   if (uvs > 0 && (from_file || uvs != vertices)) {
     wrong(place_of<ir::Mesh>(checker, &ir::Mesh::uvs, head),
-          from_file ? std::string("a mesh from a file takes its texture coordinates from there")
-                    : fmt::format("there are {} texture coordinates for {} vertices", uvs, vertices));
+          from_file
+              ? std::string("a mesh from a file takes its texture coordinates from there")
+              : fmt::format("there are {} texture coordinates for {} vertices", uvs, vertices));
   }
   const Span faces = place_of<ir::Mesh>(checker, &ir::Mesh::faces, head);
   if (!from_file && mesh.faces.empty()) wrong(faces, "the mesh has no faces");
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    if (mesh.faces[i].size() < 3) return wrong(faces, fmt::format("face {} has {} vertices; needs at least 3", i, mesh.faces[i].size()));
+    if (mesh.faces[i].size() < 3)
+      return wrong(
+          faces, fmt::format("face {} has {} vertices; needs at least 3", i, mesh.faces[i].size()));
     for (std::uint32_t index : mesh.faces[i]) {
-      if (index >= vertices) return wrong(faces, fmt::format("face {} names vertex {}; there are {}, numbered from 0", i, index, vertices));
+      if (index >= vertices)
+        return wrong(faces, fmt::format("face {} names vertex {}; there are {}, numbered from 0", i,
+                                        index, vertices));
     }
   }
 }
 
-void check_light(Session& session, const ir::SpotLight& light, const BlockChecker& checker, Span head) {
+void check_light(Session& session, const ir::SpotLight& light, const BlockChecker& checker,
+                 Span head) {
   if (light.falloff.value <= light.angle.value / 2) return;
-  session.error(DiagnosticKind::wide_falloff, place_of<ir::SpotLight>(checker, &ir::SpotLight::falloff, head),
-                fmt::format("`{}` is {}; needs at most half of `{}`, {}", key_name<ir::SpotLight>(&ir::SpotLight::falloff),
-                            quantity_text(light.falloff.value, dimension::angle), key_name<ir::SpotLight>(&ir::SpotLight::angle),
+  session.error(DiagnosticKind::wide_falloff,
+                place_of<ir::SpotLight>(checker, &ir::SpotLight::falloff, head),
+                fmt::format("`{}` is {}; needs at most half of `{}`, {}",
+                            key_name<ir::SpotLight>(&ir::SpotLight::falloff),
+                            quantity_text(light.falloff.value, dimension::angle),
+                            key_name<ir::SpotLight>(&ir::SpotLight::angle),
                             quantity_text(light.angle.value / 2, dimension::angle)));
 }
 
-void check_light(Session& session, const ir::QuadLight& light, const BlockChecker& checker, Span head) {
-  const Vector u{light.edge_u.x, light.edge_u.y, light.edge_u.z}, v{light.edge_v.x, light.edge_v.y, light.edge_v.z};
+void check_light(Session& session, const ir::QuadLight& light, const BlockChecker& checker,
+                 Span head) {
+  const Vector u{light.edge_u.x, light.edge_u.y, light.edge_u.z},
+      v{light.edge_v.x, light.edge_v.y, light.edge_v.z};
   if (!is_zero(cross(normalised(u), normalised(v)))) return;
-  session.error(DiagnosticKind::zero_extent, place_of<ir::QuadLight>(checker, &ir::QuadLight::edge_v, head),
+  session.error(DiagnosticKind::zero_extent,
+                place_of<ir::QuadLight>(checker, &ir::QuadLight::edge_v, head),
                 "the light has no area: its edges are parallel or zero");
 }
 
 void check_camera_frame(Session& session, const ir::CameraFrame& frame, Span head) {
   Vector view{};
-  if (frame.aim) view = {frame.aim->x - frame.eye.x, frame.aim->y - frame.eye.y, frame.aim->z - frame.eye.z};
+  if (frame.aim)
+    view = {frame.aim->x - frame.eye.x, frame.aim->y - frame.eye.y, frame.aim->z - frame.eye.z};
   if (frame.direction) view = {frame.direction->x, frame.direction->y, frame.direction->z};
   if (is_zero(view)) {
-    session.error(DiagnosticKind::camera_frame, head, "the camera looks at the point where it stands");
+    session.error(DiagnosticKind::camera_frame, head,
+                  "the camera looks at the point where it stands");
   } else if (parallel(view, {frame.up.x, frame.up.y, frame.up.z})) {
-    session.error(Diagnostic(DiagnosticKind::camera_frame, head, "the camera looks along its `up` direction").hint("give another `up`, such as `[0, 0, -1]`"));
+    session.error(
+        Diagnostic(DiagnosticKind::camera_frame, head, "the camera looks along its `up` direction")
+            .hint("give another `up`, such as `[0, 0, -1]`"));
   }
 }
 
-void check_camera(Session& session, const ir::ThinLens& camera, const BlockChecker& checker, Span head) {
+void check_camera(Session& session, const ir::ThinLens& camera, const BlockChecker& checker,
+                  Span head) {
   check_camera_frame(session, camera, head);
   if (!camera.focus.at_aim || camera.aim) return;
-  session.error(DiagnosticKind::camera_frame, place_of<ir::ThinLens>(checker, &ir::ThinLens::focus, head),
-                "`.aim` is the distance to the point looked at, but the camera has only a direction");
+  session.error(
+      DiagnosticKind::camera_frame, place_of<ir::ThinLens>(checker, &ir::ThinLens::focus, head),
+      "`.aim` is the distance to the point looked at, but the camera has only a direction");
 }
 
 void check_render(Session& session, const ir::RenderSettings& render, const BlockChecker& checker) {
@@ -123,9 +153,11 @@ void check_render(Session& session, const ir::RenderSettings& render, const Bloc
   const ir::Region& r = *render.region;
   const bool inside = r.x1 <= render.size.width && r.y1 <= render.size.height;
   if (r.x0 < r.x1 && r.y0 < r.y1 && inside) return;
-  session.error(DiagnosticKind::empty_region, place_of<ir::RenderSettings>(checker, &ir::RenderSettings::region, {}),
+  session.error(DiagnosticKind::empty_region,
+                place_of<ir::RenderSettings>(checker, &ir::RenderSettings::region, {}),
                 inside ? std::string("the region holds no pixels; needs x0 < x1 and y0 < y1")
-                       : fmt::format("the region leaves the picture of {} x {} pixels", render.size.width, render.size.height));
+                       : fmt::format("the region leaves the picture of {} x {} pixels",
+                                     render.size.width, render.size.height));
 }
 
 }  // namespace scenec::frontend

@@ -15,20 +15,24 @@ namespace scenec::frontend {
 template <class T>
 void check_shape(Session&, const T&, const BlockChecker&, Span) {}  // most shapes have no such rule
 void check_shape(Session& session, const ir::Box& box, const BlockChecker& checker, Span head);
-void check_shape(Session& session, const ir::Cylinder& cylinder, const BlockChecker& checker, Span head);
+void check_shape(Session& session, const ir::Cylinder& cylinder, const BlockChecker& checker,
+                 Span head);
 void check_shape(Session& session, const ir::Mesh& mesh, const BlockChecker& checker, Span head);
 
 template <class T>
 void check_light(Session&, const T&, const BlockChecker&, Span) {}
-void check_light(Session& session, const ir::SpotLight& light, const BlockChecker& checker, Span head);
-void check_light(Session& session, const ir::QuadLight& light, const BlockChecker& checker, Span head);
+void check_light(Session& session, const ir::SpotLight& light, const BlockChecker& checker,
+                 Span head);
+void check_light(Session& session, const ir::QuadLight& light, const BlockChecker& checker,
+                 Span head);
 
 void check_camera_frame(Session& session, const ir::CameraFrame& frame, Span head);
 template <class T>
 void check_camera(Session& session, const T& camera, const BlockChecker&, Span head) {
   check_camera_frame(session, camera, head);
 }
-void check_camera(Session& session, const ir::ThinLens& camera, const BlockChecker& checker, Span head);
+void check_camera(Session& session, const ir::ThinLens& camera, const BlockChecker& checker,
+                  Span head);
 
 void check_render(Session& session, const ir::RenderSettings& render, const BlockChecker& checker);
 

@@ -16,11 +16,19 @@ std::string range_text(const ir::Range& range, Dimension dimension) {
   const auto quantity = [&](double value) { return quantity_text(value, dimension); };
   const bool low = std::isfinite(range.low), high = std::isfinite(range.high);
   if (low && high) {
-    const std::string from = range.low_open ? "above " + quantity(range.low) : "from " + quantity(range.low);
-    return fmt::format("a value {} {} {}", from, range.high_open ? "and below" : range.low_open ? "and at most" : "to", quantity(range.high));
+    const std::string from =
+        range.low_open ? "above " + quantity(range.low) : "from " + quantity(range.low);
+    return fmt::format("a value {} {} {}", from,
+                       range.high_open  ? "and below"
+                       : range.low_open ? "and at most"
+                                        : "to",
+                       quantity(range.high));
   }
-  if (low) return fmt::format("a value {} {}", range.low_open ? "above" : "of at least", quantity(range.low));
-  return fmt::format("a value {} {}", range.high_open ? "below" : "of at most", quantity(range.high));
+  if (low)
+    return fmt::format("a value {} {}", range.low_open ? "above" : "of at least",
+                       quantity(range.low));
+  return fmt::format("a value {} {}", range.high_open ? "below" : "of at most",
+                     quantity(range.high));
 }
 
 bool check_components(const KeyContext& key, const Value& value, std::size_t count) {
@@ -32,7 +40,8 @@ bool check_components(const KeyContext& key, const Value& value, std::size_t cou
 
 // A key's value of a kind that is only referred to by id.
 template <class Tag>
-bool convert_id(const KeyContext& key, const Value& value, Type type, std::string_view wanted, Id<Tag>& out) {
+bool convert_id(const KeyContext& key, const Value& value, Type type, std::string_view wanted,
+                Id<Tag>& out) {
   if (value.poisoned()) return false;
   if (!value.is(type)) {
     type_error(key.session, key.need, wanted, value);
@@ -47,18 +56,22 @@ bool convert_id(const KeyContext& key, const Value& value, Type type, std::strin
 bool check_range(const KeyContext& key, double value, Dimension dimension) {
   if (key.range.contains(value)) return true;
   key.session.error(DiagnosticKind::out_of_range, key.need.span(),
-                    fmt::format("{} is {}; needs {}", key.need.text(), quantity_text(value, dimension), range_text(key.range, dimension)));
+                    fmt::format("{} is {}; needs {}", key.need.text(),
+                                quantity_text(value, dimension), range_text(key.range, dimension)));
   return false;
 }
 
 bool convert_quantity(const KeyContext& key, const Value& value, Dimension dimension, double& out) {
   const Value quantity = coerce_quantity(key.session, value, dimension, key.need);
-  if (quantity.poisoned() || !quantity.known || !check_range(key, quantity.n[0], dimension)) return false;
+  if (quantity.poisoned() || !quantity.known || !check_range(key, quantity.n[0], dimension))
+    return false;
   out = quantity.n[0];
   return true;
 }
 
-bool convert(const KeyContext& key, const Value& value, double& out) { return convert_quantity(key, value, dimension::none, out); }
+bool convert(const KeyContext& key, const Value& value, double& out) {
+  return convert_quantity(key, value, dimension::none, out);
+}
 
 bool convert(const KeyContext& key, const Value& value, std::int64_t& out) {
   const Value integer = coerce(key.session, value, integer_type, key.need);
@@ -95,7 +108,8 @@ bool convert(const KeyContext& key, const Value& value, ir::Direction& out) {
   if (vector.poisoned() || !vector.known) return false;
   out = {vector.n[0], vector.n[1], vector.n[2]};
   if (out.x != 0 || out.y != 0 || out.z != 0) return true;
-  key.session.error(DiagnosticKind::zero_direction, key.need.span(), fmt::format("{} is zero; needs a direction", key.need.text()));
+  key.session.error(DiagnosticKind::zero_direction, key.need.span(),
+                    fmt::format("{} is zero; needs a direction", key.need.text()));
   return false;
 }
 
@@ -113,7 +127,10 @@ bool convert(const KeyContext& key, const Value& value, ir::Color& out) {
     type_error(key.session, key.need, "a color such as `rgb(0.8, 0.2, 0.1)` or `#c83218`", value);
     return false;
   }
-  if (!value.known || !check_components(key, grey ? make_color(value.real(), value.real(), value.real()) : value, 3)) return false;
+  if (!value.known ||
+      !check_components(key, grey ? make_color(value.real(), value.real(), value.real()) : value,
+                        3))
+    return false;
   out = color_input(value).value;
   return true;
 }

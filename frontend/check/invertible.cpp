@@ -56,7 +56,8 @@ double condition_number(const ir::Transform& transform) {
   const auto linear = normalised_linear(transform);
   if (!linear) return infinite;
   const Linear adjoint = cofactors(*linear);
-  const double determinant = (*linear)[0] * adjoint[0] + (*linear)[1] * adjoint[1] + (*linear)[2] * adjoint[2];
+  const double determinant =
+      (*linear)[0] * adjoint[0] + (*linear)[1] * adjoint[1] + (*linear)[2] * adjoint[2];
   // The scene's own check takes the determinant of the matrix as it is, which may underflow sooner.
   if (determinant == 0 || ir::determinant(transform) == 0) return infinite;
   return frobenius(*linear) * frobenius(adjoint) / std::fabs(determinant);
@@ -65,30 +66,36 @@ double condition_number(const ir::Transform& transform) {
 bool check_invertible(Session& session, const ir::Transform& transform, Span span) {
   for (double entry : transform.m) {
     if (std::isfinite(entry)) continue;
-    session.error(Diagnostic(DiagnosticKind::singular_transform, span, "the accumulated transform is beyond the largest number")
+    session.error(Diagnostic(DiagnosticKind::singular_transform, span,
+                             "the accumulated transform is beyond the largest number")
                       .note(matrix_text(transform)));
     return false;
   }
   const double condition = condition_number(transform);
   if (condition <= max_condition) return true;
   session.error(Diagnostic(DiagnosticKind::singular_transform, span,
-                           std::isinf(condition) ? std::string("the transform cannot be inverted")
-                                                 : fmt::format("the transform is nearly singular: its condition number is {}; needs at most 1e12",
-                                                               short_number_text(condition)))
+                           std::isinf(condition)
+                               ? std::string("the transform cannot be inverted")
+                               : fmt::format("the transform is nearly singular: its condition "
+                                             "number is {}; needs at most 1e12",
+                                             short_number_text(condition)))
                     .note("accumulated: " + matrix_text(transform)));
   return false;
 }
 
 std::optional<double> uniform_scale(const ir::Transform& transform) {
   const auto& m = transform.m;
-  const auto product = [&](std::size_t a, std::size_t b) { return m[a] * m[b] + m[a + 4] * m[b + 4] + m[a + 8] * m[b + 8]; };
+  const auto product = [&](std::size_t a, std::size_t b) {
+    return m[a] * m[b] + m[a + 4] * m[b + 4] + m[a + 8] * m[b + 8];
+  };
   const double xx = product(0, 0), yy = product(1, 1), zz = product(2, 2);
   const double mean = (xx + yy + zz) / 3;
   // A product of up to some thousand rotations stays below this relative error of its columns.
   constexpr double tolerance = 0x1p-36;
   const auto near_zero = [&](double value) { return std::fabs(value) <= tolerance * mean; };
   if (!near_zero(xx - mean) || !near_zero(yy - mean) || !near_zero(zz - mean)) return std::nullopt;
-  if (!near_zero(product(0, 1)) || !near_zero(product(0, 2)) || !near_zero(product(1, 2))) return std::nullopt;
+  if (!near_zero(product(0, 1)) || !near_zero(product(0, 2)) || !near_zero(product(1, 2)))
+    return std::nullopt;
   return std::sqrt(mean);
 }
 

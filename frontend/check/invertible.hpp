@@ -1,4 +1,5 @@
-// Whether a transform keeps three dimensions well enough to be inverted, and whether it keeps shapes.
+// Whether a transform keeps three dimensions well enough to be inverted, and whether it keeps
+// shapes.
 #pragma once
 
 #include <optional>

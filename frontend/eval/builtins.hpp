@@ -18,21 +18,21 @@ namespace scenec::frontend {
 
 enum class Accept : std::uint8_t {
   any,
-  plain,             // number without dimension
+  plain,  // number without dimension
   integer,
   angle,
   temperature,
   boolean,
   string,
-  choice,            // `.name`
-  list,              // list or vector
-  vector,            // 2 or 3 components, any dimension
-  vec2,              // 2 plain numbers
-  vec3,              // 3 numbers of any one dimension
-  offset,            // 3 lengths
+  choice,  // `.name`
+  list,    // list or vector
+  vector,  // 2 or 3 components, any dimension
+  vec2,    // 2 plain numbers
+  vec3,    // 3 numbers of any one dimension
+  offset,  // 3 lengths
   color,
-  color_input,       // color, number or texture
-  number_input,      // plain number or grey texture
+  color_input,   // color, number or texture
+  number_input,  // plain number or grey texture
 };
 
 struct Parameter {
@@ -50,7 +50,9 @@ struct Call {
   std::vector<grammar::NodeRef> nodes;  // empty where a default stands
   bool known = true;                    // every argument is
 
-  [[nodiscard]] bool has(std::size_t i) const { return i < nodes.size() && static_cast<bool>(nodes[i]); }
+  [[nodiscard]] bool has(std::size_t i) const {
+    return i < nodes.size() && static_cast<bool>(nodes[i]);
+  }
   [[nodiscard]] const Value& operator[](std::size_t i) const { return arguments[i]; }
   [[nodiscard]] Need need(std::size_t i) const;
   [[nodiscard]] Span span() const { return node.span(); }
@@ -75,7 +77,8 @@ struct Builtin {
 [[nodiscard]] Value accepted(Session& session, const Value& value, Accept accept, const Need& need);
 // The choice of an enumeration: its index, or nullopt (reported).
 [[nodiscard]] std::optional<std::size_t> choice_of(Session& session, const Value& value,
-                                                   std::span<const std::string_view> names, const Need& need);
+                                                   std::span<const std::string_view> names,
+                                                   const Need& need);
 
 // The rows, by theme.
 [[nodiscard]] std::span<const Builtin> number_functions();

@@ -36,7 +36,8 @@ Value run_gray(Call& call) {
 Value run_blackbody(Call& call) {
   if (!call.known) return make_unknown(Type::color);
   const double kelvin = call[0].real();
-  if (!(kelvin >= blackbody_coldest && kelvin <= blackbody_hottest)) return call.outside(0, "500 K to 100000 K");
+  if (!(kelvin >= blackbody_coldest && kelvin <= blackbody_hottest))
+    return call.outside(0, "500 K to 100000 K");
   const ir::Color color = blackbody(kelvin);
   return make_color(color.r, color.g, color.b);
 }
@@ -67,7 +68,8 @@ Value run_mix(Call& call) {
   if (!a.is_number() && !a.is_vector() && !a.is(Type::color)) {
     return type_error(call.session, call.need(0), "a number, a vector, a color or a texture", a);
   }
-  const Operation blend{.op = "+", .span = call.span(), .left = call.nodes[0], .right = call.nodes[1]};
+  const Operation blend{
+      .op = "+", .span = call.span(), .left = call.nodes[0], .right = call.nodes[1]};
   const Value pattern = arithmetic(call.session, type_of(a), type_of(b), blend);
   if (pattern.poisoned()) return {};
   if (!call.known) return pattern.is(Type::integer) ? make_unknown(Type::number) : pattern;
@@ -77,14 +79,16 @@ Value run_mix(Call& call) {
   b.n[0] = b.is_number() ? b.real() : b.n[0];
   for (std::size_t i = 0; i < 3; ++i) {
     n[i] = weight == 1 ? b.n[i] : a.n[i] * (1 - weight) + b.n[i] * weight;
-    if (!std::isfinite(n[i])) return finite_number(call.session, n[i], {}, call.span(), call.function);
+    if (!std::isfinite(n[i]))
+      return finite_number(call.session, n[i], {}, call.span(), call.function);
   }
   if (pattern.is(Type::color)) return make_color(n[0], n[1], n[2]);
   if (pattern.is_vector()) return make_vector(pattern.vector_size(), n, pattern.dimension);
   return make_number(n[0], pattern.dimension);
 }
 
-constexpr std::array<Parameter, 3> rgb{{{"r", Accept::plain}, {"g", Accept::plain}, {"b", Accept::plain}}};
+constexpr std::array<Parameter, 3> rgb{
+    {{"r", Accept::plain}, {"g", Accept::plain}, {"b", Accept::plain}}};
 constexpr std::array<Parameter, 1> value{{{"v", Accept::plain}}};
 constexpr std::array<Parameter, 1> temperature{{{"t", Accept::temperature}}};
 constexpr std::array<Parameter, 3> a_b_t{{{"a"}, {"b"}, {"t"}}};
@@ -99,6 +103,8 @@ constexpr std::array<Builtin, 5> rows{{
 
 }  // namespace
 
-std::span<const Builtin> color_functions() { return rows; }
+std::span<const Builtin> color_functions() {
+  return rows;
+}
 
 }  // namespace scenec::frontend

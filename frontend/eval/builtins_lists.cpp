@@ -14,7 +14,8 @@ namespace {
 
 Value run_len(Call& call) {
   const Value& x = call[0];
-  if (!is_listlike(x) && !x.is(Type::string)) return type_error(call.session, call.need(0), "a list or a string", x);
+  if (!is_listlike(x) && !x.is(Type::string))
+    return type_error(call.session, call.need(0), "a list or a string", x);
   if (x.is_vector()) return make_int(static_cast<std::int64_t>(x.vector_size()));
   if (!x.known) return make_unknown(Type::integer);
   const std::size_t size = x.is(Type::string) ? count_code_points(x.text()) : x.elements().size();
@@ -41,26 +42,33 @@ Value run_concat(Call& call) {
     const std::size_t count = element_count(call[i]);
     if (!call.session.spend(count * steps_per_list_element, call.span())) return {};
     if (elements.size() + count > max_list_elements) {
-      return call.session.error(DiagnosticKind::list_too_long, call.span(),
-                                fmt::format("the list has more than {} elements", max_list_elements));
+      return call.session.error(
+          DiagnosticKind::list_too_long, call.span(),
+          fmt::format("the list has more than {} elements", max_list_elements));
     }
     for (std::size_t k = 0; k < count; ++k) elements.push_back(element_of(call[i], k));
   }
-  if (!call.known) return elements.empty() ? make_unknown(Type::list) : type_of(make_list(std::move(elements)));
+  if (!call.known)
+    return elements.empty() ? make_unknown(Type::list) : type_of(make_list(std::move(elements)));
   return checked_list(call.session, std::move(elements), call.node, {});
 }
 
 std::string text_of_value(const Value& value) {
   switch (value.type) {
-    case Type::boolean: return value.boolean() ? "true" : "false";
-    case Type::integer: return std::to_string(value.integer);
+    case Type::boolean:
+      return value.boolean() ? "true" : "false";
+    case Type::integer:
+      return std::to_string(value.integer);
     case Type::number: {
       const std::string unit = si_unit_of(value.dimension);
       return short_number_text(value.real()) + unit;
     }
-    case Type::string: return value.text();
-    case Type::enumeration: return '.' + value.text();
-    default: break;
+    case Type::string:
+      return value.text();
+    case Type::enumeration:
+      return '.' + value.text();
+    default:
+      break;
   }
   std::string text = "[";
   for (std::size_t i = 0; i < element_count(value); ++i) {
@@ -74,13 +82,16 @@ Value run_str(Call& call) {
   std::string text;
   for (std::size_t i = 0; i < call.arguments.size(); ++i) {
     const Value& value = call[i];
-    const bool printable_type = value.is_number() || value.is_vector() || value.is(Type::boolean) || value.is(Type::string) ||
-                                value.is(Type::enumeration);
-    if (!printable_type) return type_error(call.session, call.need(i), "a number, a truth value, a string or a vector", value);
+    const bool printable_type = value.is_number() || value.is_vector() || value.is(Type::boolean) ||
+                                value.is(Type::string) || value.is(Type::enumeration);
+    if (!printable_type)
+      return type_error(call.session, call.need(i), "a number, a truth value, a string or a vector",
+                        value);
     if (call.known) text += text_of_value(value);
     if (text.size() > max_string_bytes) {
-      return call.session.error(DiagnosticKind::string_too_long, call.span(),
-                                fmt::format("the string is longer than {} bytes", max_string_bytes));
+      return call.session.error(
+          DiagnosticKind::string_too_long, call.span(),
+          fmt::format("the string is longer than {} bytes", max_string_bytes));
     }
   }
   if (!call.session.spend(text.size() / 8 + 1, call.span())) return {};
@@ -100,6 +111,8 @@ constexpr std::array<Builtin, 4> rows{{
 
 }  // namespace
 
-std::span<const Builtin> list_functions() { return rows; }
+std::span<const Builtin> list_functions() {
+  return rows;
+}
 
 }  // namespace scenec::frontend

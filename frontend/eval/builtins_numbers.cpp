@@ -16,26 +16,39 @@ namespace {
 
 Value plain_result(Call& call, double (*compute)(double), Dimension dimension = {}) {
   if (!call.known) return make_unknown(Type::number, dimension);
-  return finite_number(call.session, compute(call[0].real()), dimension, call.span(), call.function);
+  return finite_number(call.session, compute(call[0].real()), dimension, call.span(),
+                       call.function);
 }
 
-Value run_sin(Call& call) { return plain_result(call, math::sine); }
-Value run_cos(Call& call) { return plain_result(call, math::cosine); }
+Value run_sin(Call& call) {
+  return plain_result(call, math::sine);
+}
+Value run_cos(Call& call) {
+  return plain_result(call, math::cosine);
+}
 
 Value run_tan(Call& call) {
   if (!call.known) return make_unknown(Type::number);
   const auto quarters = math::quarter_turns(call[0].real());
-  if (quarters && *quarters % 2 != 0) return call.outside(0, "an angle other than 90 deg and its odd multiples");
+  if (quarters && *quarters % 2 != 0)
+    return call.outside(0, "an angle other than 90 deg and its odd multiples");
   return quarters ? make_number(0) : plain_result(call, math::tangent);
 }
 
 Value inverse(Call& call, double (*compute)(double)) {
-  if (call.known && !(std::fabs(call[0].real()) <= 1)) return call.outside(0, "a value from -1 to 1");
+  if (call.known && !(std::fabs(call[0].real()) <= 1))
+    return call.outside(0, "a value from -1 to 1");
   return plain_result(call, compute, dimension::angle);
 }
-Value run_asin(Call& call) { return inverse(call, math::arc_sine); }
-Value run_acos(Call& call) { return inverse(call, math::arc_cosine); }
-Value run_atan(Call& call) { return plain_result(call, math::arc_tangent, dimension::angle); }
+Value run_asin(Call& call) {
+  return inverse(call, math::arc_sine);
+}
+Value run_acos(Call& call) {
+  return inverse(call, math::arc_cosine);
+}
+Value run_atan(Call& call) {
+  return plain_result(call, math::arc_tangent, dimension::angle);
+}
 
 // The common dimension of all arguments; numbers only. nullopt: reported.
 std::optional<Dimension> common(Call& call) {
@@ -48,7 +61,8 @@ std::optional<Dimension> common(Call& call) {
       return std::nullopt;
     }
     // The first argument sets the pattern; a plain one later gives way to a quantity.
-    const auto dimension = i == 0 ? std::optional(value.dimension) : common_dimension(pattern, value);
+    const auto dimension =
+        i == 0 ? std::optional(value.dimension) : common_dimension(pattern, value);
     if (!dimension) {
       mixed_dimensions(call.session, call.span(), call.function, pattern, value, {}, call.nodes[i]);
       return std::nullopt;
@@ -75,10 +89,12 @@ Value run_atan2(Call& call) {
 
 Value run_sqrt(Call& call) {
   Dimension dimension = call[0].dimension;
-  for (auto exponent : {&Dimension::length, &Dimension::angle, &Dimension::time, &Dimension::power, &Dimension::temperature}) {
+  for (auto exponent : {&Dimension::length, &Dimension::angle, &Dimension::time, &Dimension::power,
+                        &Dimension::temperature}) {
     if (dimension.*exponent % 2 != 0) {
-      return call.session.error(DiagnosticKind::dimension_mismatch, call.span(0),
-                                fmt::format("there is no square root of {}", with_article(call[0].dimension)));
+      return call.session.error(
+          DiagnosticKind::dimension_mismatch, call.span(0),
+          fmt::format("there is no square root of {}", with_article(call[0].dimension)));
     }
     dimension.*exponent = static_cast<std::int8_t>(dimension.*exponent / 2);
   }
@@ -90,11 +106,14 @@ Value run_sqrt(Call& call) {
 Value run_pow(Call& call) {
   Dimension dimension = call[0].dimension;
   if (!dimension.none()) {
-    if (!call[1].is(Type::integer)) return type_error(call.session, call.need(1), "an integer beside a quantity", call[1]);
+    if (!call[1].is(Type::integer))
+      return type_error(call.session, call.need(1), "an integer beside a quantity", call[1]);
     if (!call[1].known) return {};  // its dimension is not known before the call is expanded
     const std::int64_t power = call[1].integer;
-    if (power < -20 || power > 20) return call.outside(1, "an exponent from -20 to 20 beside a quantity");
-    for (auto exponent : {&Dimension::length, &Dimension::angle, &Dimension::time, &Dimension::power, &Dimension::temperature}) {
+    if (power < -20 || power > 20)
+      return call.outside(1, "an exponent from -20 to 20 beside a quantity");
+    for (auto exponent : {&Dimension::length, &Dimension::angle, &Dimension::time,
+                          &Dimension::power, &Dimension::temperature}) {
       const std::int64_t raised = dimension.*exponent * power;
       if (raised < -100 || raised > 100) return call.outside(1, "a smaller exponent");
       dimension.*exponent = static_cast<std::int8_t>(raised);
@@ -102,12 +121,17 @@ Value run_pow(Call& call) {
   }
   if (!call.known) return make_unknown(Type::number, dimension);
   const double base = call[0].real(), exponent = call[1].real();
-  if (base == 0 && exponent < 0) return call.outside(0, "a value other than 0 for a negative exponent");
-  if (base < 0 && exponent != std::floor(exponent)) return call.outside(0, "a value of at least 0 for a broken exponent");
-  return finite_number(call.session, math::power(base, exponent), dimension, call.span(), call.function);
+  if (base == 0 && exponent < 0)
+    return call.outside(0, "a value other than 0 for a negative exponent");
+  if (base < 0 && exponent != std::floor(exponent))
+    return call.outside(0, "a value of at least 0 for a broken exponent");
+  return finite_number(call.session, math::power(base, exponent), dimension, call.span(),
+                       call.function);
 }
 
-Value run_exp(Call& call) { return plain_result(call, math::exponential); }
+Value run_exp(Call& call) {
+  return plain_result(call, math::exponential);
+}
 Value run_log(Call& call) {
   if (call.known && !(call[0].real() > 0)) return call.outside(0, "a value above 0");
   return plain_result(call, math::logarithm);
@@ -134,8 +158,12 @@ Value extreme(Call& call, bool smallest) {
   }
   return integers ? make_int(best.integer) : make_number(best.real(), *dimension);
 }
-Value run_min(Call& call) { return extreme(call, true); }
-Value run_max(Call& call) { return extreme(call, false); }
+Value run_min(Call& call) {
+  return extreme(call, true);
+}
+Value run_max(Call& call) {
+  return extreme(call, false);
+}
 
 Value run_clamp(Call& call) {
   const auto dimension = common(call);
@@ -143,7 +171,9 @@ Value run_clamp(Call& call) {
   const bool integers = all_integers(call);
   if (!call.known) return make_unknown(integers ? Type::integer : Type::number, *dimension);
   if (call[1].real() > call[2].real()) return call.outside(1, "a value of at most `hi`");
-  const Value& bound = call[0].real() < call[1].real() ? call[1] : call[0].real() > call[2].real() ? call[2] : call[0];
+  const Value& bound = call[0].real() < call[1].real()   ? call[1]
+                       : call[0].real() > call[2].real() ? call[2]
+                                                         : call[0];
   return integers ? make_int(bound.integer) : make_number(bound.real(), *dimension);
 }
 
@@ -162,32 +192,43 @@ Value rounded(Call& call, double (*compute)(double)) {
   const double result = compute(call[0].real());
   constexpr double limit = 0x1p63;
   if (result >= -limit && result < limit) return make_int(static_cast<std::int64_t>(result));
-  return call.session.error(DiagnosticKind::integer_overflow, call.span(), "the result does not fit into a 64-bit integer");
+  return call.session.error(DiagnosticKind::integer_overflow, call.span(),
+                            "the result does not fit into a 64-bit integer");
 }
-Value run_floor(Call& call) { return rounded(call, std::floor); }
-Value run_ceil(Call& call) { return rounded(call, std::ceil); }
-Value run_round(Call& call) { return rounded(call, std::round); }
+Value run_floor(Call& call) {
+  return rounded(call, std::floor);
+}
+Value run_ceil(Call& call) {
+  return rounded(call, std::ceil);
+}
+Value run_round(Call& call) {
+  return rounded(call, std::round);
+}
 
 Value run_hash(Call& call) {
   if (!call.known) return make_unknown(Type::integer);
   std::uint64_t state = 0;
-  for (const Value& value : call.arguments) state = mixed_bits(state, static_cast<std::uint64_t>(value.integer));
+  for (const Value& value : call.arguments)
+    state = mixed_bits(state, static_cast<std::uint64_t>(value.integer));
   return make_int(static_cast<std::int64_t>(state >> 1));
 }
 
 Value run_random(Call& call) {
   if (!call.known) return make_unknown(Type::number);
   const auto seed = static_cast<std::uint64_t>(call[0].integer);
-  return make_number(unit_interval(mixed_bits(mixed_bits(0, seed), static_cast<std::uint64_t>(call[1].integer))));
+  return make_number(
+      unit_interval(mixed_bits(mixed_bits(0, seed), static_cast<std::uint64_t>(call[1].integer))));
 }
 
 Value run_noise(Call& call) {
   const Value& p = call[0];
-  if (!p.is_number() && !p.is_vector()) return type_error(call.session, call.need(0), "a number or a list of 2 or 3 numbers", p);
+  if (!p.is_number() && !p.is_vector())
+    return type_error(call.session, call.need(0), "a number or a list of 2 or 3 numbers", p);
   if (!p.dimension.none()) {
-    return call.session.error(Diagnostic(DiagnosticKind::dimension_mismatch, call.span(0),
-                                         fmt::format("`p` of `noise` needs plain numbers; found {}", described(p)))
-                                  .hint("divide by the size of a cell, such as `p / 0.1m`"));
+    return call.session.error(
+        Diagnostic(DiagnosticKind::dimension_mismatch, call.span(0),
+                   fmt::format("`p` of `noise` needs plain numbers; found {}", described(p)))
+            .hint("divide by the size of a cell, such as `p / 0.1m`"));
   }
   if (!p.known) return make_unknown(Type::number);
   const std::array<double, 3> at = p.is_vector() ? p.n : std::array<double, 3>{p.real(), 0, 0};
@@ -206,39 +247,32 @@ constexpr std::array<Parameter, 2> seed_i{{{"seed", Accept::integer}, {"i", Acce
 constexpr std::array<Parameter, 1> any_p{{{"p"}}};
 
 Value run_sqrt_checked(Call& call) {
-  return call[0].is_number() ? run_sqrt(call) : type_error(call.session, call.need(0), "a number", call[0]);
+  return call[0].is_number() ? run_sqrt(call)
+                             : type_error(call.session, call.need(0), "a number", call[0]);
 }
 Value run_pow_checked(Call& call) {
-  return call[0].is_number() ? run_pow(call) : type_error(call.session, call.need(0), "a number", call[0]);
+  return call[0].is_number() ? run_pow(call)
+                             : type_error(call.session, call.need(0), "a number", call[0]);
 }
 
 constexpr std::array<Builtin, 22> rows{{
-    {"sin", angle_a, run_sin},
-    {"cos", angle_a, run_cos},
-    {"tan", angle_a, run_tan},
-    {"asin", plain_x, run_asin},
-    {"acos", plain_x, run_acos},
-    {"atan", plain_x, run_atan},
-    {"atan2", y_x, run_atan2},
-    {"sqrt", any_x, run_sqrt_checked},
-    {"pow", x_y, run_pow_checked},
-    {"exp", plain_x, run_exp},
-    {"log", plain_x, run_log},
-    {"abs", any_x, run_abs},
-    {"min", any_x, run_min, true},
-    {"max", any_x, run_max, true},
-    {"clamp", x_lo_hi, run_clamp},
-    {"smoothstep", lo_hi_x, run_smoothstep},
-    {"floor", plain_x, run_floor},
-    {"ceil", plain_x, run_ceil},
-    {"round", plain_x, run_round},
-    {"hash", integer_x, run_hash, true},
-    {"random", seed_i, run_random},
-    {"noise", any_p, run_noise},
+    {"sin", angle_a, run_sin},      {"cos", angle_a, run_cos},
+    {"tan", angle_a, run_tan},      {"asin", plain_x, run_asin},
+    {"acos", plain_x, run_acos},    {"atan", plain_x, run_atan},
+    {"atan2", y_x, run_atan2},      {"sqrt", any_x, run_sqrt_checked},
+    {"pow", x_y, run_pow_checked},  {"exp", plain_x, run_exp},
+    {"log", plain_x, run_log},      {"abs", any_x, run_abs},
+    {"min", any_x, run_min, true},  {"max", any_x, run_max, true},
+    {"clamp", x_lo_hi, run_clamp},  {"smoothstep", lo_hi_x, run_smoothstep},
+    {"floor", plain_x, run_floor},  {"ceil", plain_x, run_ceil},
+    {"round", plain_x, run_round},  {"hash", integer_x, run_hash, true},
+    {"random", seed_i, run_random}, {"noise", any_p, run_noise},
 }};
 
 }  // namespace
 
-std::span<const Builtin> number_functions() { return rows; }
+std::span<const Builtin> number_functions() {
+  return rows;
+}
 
 }  // namespace scenec::frontend

@@ -39,7 +39,8 @@ bool positive(Call& call, std::size_t i, double& out) {
 
 Value run_image(Call& call) {
   ir::ImageTexture image;
-  const bool wrap = choose(call, 1, image.wrap), filter = choose(call, 2, image.filter), encoding = choose(call, 3, image.encoding);
+  const bool wrap = choose(call, 1, image.wrap), filter = choose(call, 2, image.filter),
+             encoding = choose(call, 3, image.encoding);
   if (!wrap || !filter || !encoding) return {};
   if (!call.known || call.session.checking_only()) return unknown_texture(false);
   const Value& file = call[0];
@@ -75,8 +76,9 @@ Value run_fractal(Call& call) {
 // One stop `[position, colour]`; a grey one is written as a number.
 bool add_stop(Call& call, const Value& stop, ir::RampTexture& ramp, bool& grey) {
   const bool numbers = stop.is(Type::vec2) && stop.dimension.none();
-  const bool pair = stop.is(Type::list) && element_count(stop) == 2 && element_of(stop, 0).is_number() &&
-                    element_of(stop, 0).dimension.none() && element_of(stop, 1).is(Type::color);
+  const bool pair = stop.is(Type::list) && element_count(stop) == 2 &&
+                    element_of(stop, 0).is_number() && element_of(stop, 0).dimension.none() &&
+                    element_of(stop, 1).is(Type::color);
   if (!numbers && !pair) {
     type_error(call.session, call.need(1), "stops such as `[0.5, white]`", stop);
     return false;
@@ -98,11 +100,13 @@ Value run_ramp(Call& call) {
   }
   if (!call.known) return unknown_texture(grey);
   bool ascending = !ramp.stops.empty();
-  for (std::size_t i = 1; i < ramp.stops.size(); ++i) ascending = ascending && ramp.stops[i - 1].first < ramp.stops[i].first;
+  for (std::size_t i = 1; i < ramp.stops.size(); ++i)
+    ascending = ascending && ramp.stops[i - 1].first < ramp.stops[i].first;
   if (!ascending) {
     return call.session.error(DiagnosticKind::ramp_stops, call.span(1),
-                              ramp.stops.empty() ? "`ramp` needs at least one stop such as `[0, white]`"
-                                                 : "the positions of the stops of `ramp` must ascend");
+                              ramp.stops.empty()
+                                  ? "`ramp` needs at least one stop such as `[0, white]`"
+                                  : "the positions of the stops of `ramp` must ascend");
   }
   ramp.t = number_input(call[0]);
   return added(call, ramp, grey);
@@ -146,6 +150,8 @@ constexpr std::array<Builtin, 5> rows{{
 
 }  // namespace
 
-std::span<const Builtin> texture_functions() { return rows; }
+std::span<const Builtin> texture_functions() {
+  return rows;
+}
 
 }  // namespace scenec::frontend

@@ -12,11 +12,14 @@ namespace scenec::frontend {
 namespace {
 
 // Without overflow or underflow of the squares.
-double length_of(const Value& v) { return std::hypot(v.n[0], v.n[1], v.is(Type::vec3) ? v.n[2] : 0.0); }
+double length_of(const Value& v) {
+  return std::hypot(v.n[0], v.n[1], v.is(Type::vec3) ? v.n[2] : 0.0);
+}
 
 Value run_length(Call& call) {
   if (!call.known) return make_unknown(Type::number, call[0].dimension);
-  return finite_number(call.session, length_of(call[0]), call[0].dimension, call.span(), call.function);
+  return finite_number(call.session, length_of(call[0]), call[0].dimension, call.span(),
+                       call.function);
 }
 
 Value run_normalize(Call& call) {
@@ -24,8 +27,9 @@ Value run_normalize(Call& call) {
   if (!v.known) return make_unknown(v.type);
   const double length = length_of(v);
   if (length == 0 || !std::isfinite(length)) {
-    return call.session.error(DiagnosticKind::outside_domain, call.span(0),
-                              length == 0 ? "a zero vector has no direction" : "the vector is too long to be normalised");
+    return call.session.error(
+        DiagnosticKind::outside_domain, call.span(0),
+        length == 0 ? "a zero vector has no direction" : "the vector is too long to be normalised");
   }
   return make_vector(v.vector_size(), {v.n[0] / length, v.n[1] / length, v.n[2] / length});
 }
@@ -51,10 +55,12 @@ Value run_cross(Call& call) {
   const Value product = component_product(call);
   if (product.poisoned()) return {};
   if (!call.known) return make_unknown(Type::vec3, product.dimension);
-  const std::array<double, 3> n{a.n[1] * b.n[2] - a.n[2] * b.n[1], a.n[2] * b.n[0] - a.n[0] * b.n[2],
+  const std::array<double, 3> n{a.n[1] * b.n[2] - a.n[2] * b.n[1],
+                                a.n[2] * b.n[0] - a.n[0] * b.n[2],
                                 a.n[0] * b.n[1] - a.n[1] * b.n[0]};
   for (double component : n) {
-    if (!std::isfinite(component)) return finite_number(call.session, component, {}, call.span(), call.function);
+    if (!std::isfinite(component))
+      return finite_number(call.session, component, {}, call.span(), call.function);
   }
   return make_vector(3, n, product.dimension);
 }
@@ -72,6 +78,8 @@ constexpr std::array<Builtin, 4> rows{{
 
 }  // namespace
 
-std::span<const Builtin> vector_functions() { return rows; }
+std::span<const Builtin> vector_functions() {
+  return rows;
+}
 
 }  // namespace scenec::frontend

@@ -51,8 +51,9 @@ std::string_view example_of(Dimension wanted) {
 }
 
 Value plain_angle(Session& session, const Need& need) {
-  Diagnostic diagnostic(DiagnosticKind::plain_angle, need.span(),
-                        fmt::format("{} needs an angle such as `60deg`; found a number without a unit", need.text()));
+  Diagnostic diagnostic(
+      DiagnosticKind::plain_angle, need.span(),
+      fmt::format("{} needs an angle such as `60deg`; found a number without a unit", need.text()));
   const NodeRef node = need.node;
   if (node.is(SyntaxKind::number_literal) ||
       (node.is(SyntaxKind::unary) && node.find_child(SyntaxKind::number_literal))) {
@@ -84,7 +85,8 @@ std::optional<TypeRef> read_type(Session& session, NodeRef node) {
       for (std::size_t i = 0; i < types.size(); ++i) names[i] = types[i].name;
       names.back() = proto_type.name;
       session.report(unknown_word(DiagnosticKind::unknown_type, name.span(),
-                                  fmt::format("there is no type `{}`", printable(name.text())), name.text(), names, "types"));
+                                  fmt::format("there is no type `{}`", printable(name.text())),
+                                  name.text(), names, "types"));
       return std::nullopt;
     }
     node = node.find_child(SyntaxKind::type);
@@ -113,20 +115,27 @@ Value type_error(Session& session, const Need& need, std::string_view wanted, co
 
 std::optional<Dimension> common_dimension(const Value& a, const Value& b) {
   if (a.dimension == b.dimension) return a.dimension;
-  if (a.dimension.none() && (adopts_si(b.dimension) || (a.literal_zero && b.dimension == dimension::angle))) return b.dimension;
-  if (b.dimension.none() && (adopts_si(a.dimension) || (b.literal_zero && a.dimension == dimension::angle))) return a.dimension;
+  if (a.dimension.none() &&
+      (adopts_si(b.dimension) || (a.literal_zero && b.dimension == dimension::angle)))
+    return b.dimension;
+  if (b.dimension.none() &&
+      (adopts_si(a.dimension) || (b.literal_zero && a.dimension == dimension::angle)))
+    return a.dimension;
   return std::nullopt;
 }
 
-Value mixed_dimensions(Session& session, Span span, std::string_view what, const Value& a, const Value& b,
-                       NodeRef a_node, NodeRef b_node) {
+Value mixed_dimensions(Session& session, Span span, std::string_view what, const Value& a,
+                       const Value& b, NodeRef a_node, NodeRef b_node) {
   const auto plain_beside_angle = [](const Value& plain, const Value& angle) {
     return plain.dimension.none() && angle.dimension == dimension::angle;
   };
-  if (plain_beside_angle(a, b) && a_node) return plain_angle(session, {.subject = what, .node = a_node});
-  if (plain_beside_angle(b, a) && b_node) return plain_angle(session, {.subject = what, .node = b_node});
+  if (plain_beside_angle(a, b) && a_node)
+    return plain_angle(session, {.subject = what, .node = a_node});
+  if (plain_beside_angle(b, a) && b_node)
+    return plain_angle(session, {.subject = what, .node = b_node});
   Diagnostic diagnostic(DiagnosticKind::dimension_mismatch, span,
-                        fmt::format("`{}` cannot combine {} and {}", what, with_article(a.dimension), with_article(b.dimension)));
+                        fmt::format("`{}` cannot combine {} and {}", what,
+                                    with_article(a.dimension), with_article(b.dimension)));
   if (a_node) diagnostic.labels.push_back({a_node.span(), with_article(a.dimension)});
   if (b_node) diagnostic.labels.push_back({b_node.span(), with_article(b.dimension)});
   return session.error(std::move(diagnostic));
@@ -134,32 +143,38 @@ Value mixed_dimensions(Session& session, Span span, std::string_view what, const
 
 Value coerce_quantity(Session& session, const Value& value, Dimension wanted, const Need& need) {
   if (value.poisoned()) return {};
-  if (!value.is_number()) return type_error(session, need, with_article(wanted) + std::string(example_of(wanted)), value);
+  if (!value.is_number())
+    return type_error(session, need, with_article(wanted) + std::string(example_of(wanted)), value);
   const bool serves = value.dimension == wanted ||
-                      (value.dimension.none() && (adopts_si(wanted) || (value.literal_zero && wanted == dimension::angle)));
+                      (value.dimension.none() &&
+                       (adopts_si(wanted) || (value.literal_zero && wanted == dimension::angle)));
   if (!serves) {
     if (value.dimension.none() && wanted == dimension::angle) return plain_angle(session, need);
     return session.error(DiagnosticKind::dimension_mismatch, need.span(),
-                         fmt::format("{} needs {}{}; found {}", need.text(), with_article(wanted), example_of(wanted),
-                                     with_article(value.dimension)));
+                         fmt::format("{} needs {}{}; found {}", need.text(), with_article(wanted),
+                                     example_of(wanted), with_article(value.dimension)));
   }
   if (!value.known) return make_unknown(Type::number, wanted);
   return make_number(value.real(), wanted);
 }
 
-Value coerce_vector(Session& session, const Value& value, std::size_t size, std::optional<Dimension> wanted, const Need& need) {
+Value coerce_vector(Session& session, const Value& value, std::size_t size,
+                    std::optional<Dimension> wanted, const Need& need) {
   if (value.poisoned()) return {};
   const Type type = size == 2 ? Type::vec2 : Type::vec3;
   if (!value.is(type)) {
     const bool lengths = wanted == dimension::length;
-    return type_error(session, need, fmt::format("a list of {} {}", size, lengths ? "lengths" : "numbers"), value);
+    return type_error(session, need,
+                      fmt::format("a list of {} {}", size, lengths ? "lengths" : "numbers"), value);
   }
-  const bool serves = wanted ? value.dimension == *wanted || (value.dimension.none() && adopts_si(*wanted))
-                             : value.dimension.none() || value.dimension == dimension::length;
+  const bool serves =
+      wanted ? value.dimension == *wanted || (value.dimension.none() && adopts_si(*wanted))
+             : value.dimension.none() || value.dimension == dimension::length;
   if (!serves) {
-    return session.error(DiagnosticKind::dimension_mismatch, need.span(),
-                         fmt::format("{} needs a list of {} {}; found {}", need.text(), size,
-                                     wanted == dimension::length ? "lengths" : "numbers", described(value)));
+    return session.error(
+        DiagnosticKind::dimension_mismatch, need.span(),
+        fmt::format("{} needs a list of {} {}; found {}", need.text(), size,
+                    wanted == dimension::length ? "lengths" : "numbers", described(value)));
   }
   Value vector = value;
   if (wanted && *wanted != value.dimension) {
@@ -177,7 +192,8 @@ ir::Transform composed(const std::vector<Value>& transforms) {
 
 Value coerce_transform(Session& session, const Value& value, const Need& need) {
   if (value.poisoned() || value.is(Type::transform)) return value;
-  constexpr std::string_view wanted = "a transform such as `move([0, 1, 0])` or a list of transforms";
+  constexpr std::string_view wanted =
+      "a transform such as `move([0, 1, 0])` or a list of transforms";
   if (!value.is(Type::list)) return type_error(session, need, wanted, value);
   if (value.heap == nullptr) return make_unknown(Type::transform);
   for (const Value& element : value.elements()) {
@@ -192,14 +208,16 @@ Value coerce_transform(Session& session, const Value& value, const Need& need) {
 Value coerce_named(Session& session, const Value& value, const Need& need) {
   if ((!value.is_number() && !value.is_vector()) || is_named(value.dimension)) return value;
   return session.error(DiagnosticKind::compound_dimension, need.span(),
-                       fmt::format("{} cannot hold a value of dimension `{}`", need.text(), name_of(value.dimension)));
+                       fmt::format("{} cannot hold a value of dimension `{}`", need.text(),
+                                   name_of(value.dimension)));
 }
 
 namespace {
 
 Value coerce_list(Session& session, const Value& value, const TypeRef& type, const Need& need) {
   if (value.poisoned()) return {};
-  if (!is_listlike(value)) return type_error(session, need, fmt::format("a list (`{}`)", text_of(type)), value);
+  if (!is_listlike(value))
+    return type_error(session, need, fmt::format("a list (`{}`)", text_of(type)), value);
   if (value.is(Type::list) && value.heap == nullptr) return value;
   TypeRef element_type = type;
   --element_type.list_depth;
@@ -216,13 +234,17 @@ Value coerce_list(Session& session, const Value& value, const TypeRef& type, con
 
 Value coerce_scalar(Session& session, const Value& value, const TypeRef& type, const Need& need) {
   switch (type.type) {
-    case Type::number: return coerce_quantity(session, value, type.dimension, need);
+    case Type::number:
+      return coerce_quantity(session, value, type.dimension, need);
     case Type::vec2:
     case Type::vec3:
       return coerce_vector(session, value, type.type == Type::vec2 ? 2 : 3,
-                           type.number_or_length ? std::nullopt : std::optional(type.dimension), need);
-    case Type::transform: return coerce_transform(session, value, need);
-    default: break;
+                           type.number_or_length ? std::nullopt : std::optional(type.dimension),
+                           need);
+    case Type::transform:
+      return coerce_transform(session, value, need);
+    default:
+      break;
   }
   if (value.is(type.type)) return value;
   if (type.type == Type::integer && value.is(Type::number) && value.dimension.none()) {
@@ -233,7 +255,8 @@ Value coerce_scalar(Session& session, const Value& value, const TypeRef& type, c
   if (type.type == Type::texture && value.is(Type::color)) {
     if (!value.known) return make_unknown(Type::texture);
     const ir::Color color = value.color();
-    return make_texture(session.builder.add_texture({ir::ConstantTexture{color}}), color.r == color.g && color.g == color.b);
+    return make_texture(session.builder.add_texture({ir::ConstantTexture{color}}),
+                        color.r == color.g && color.g == color.b);
   }
   const bool vowel = type.name.front() == 'i';
   return type_error(session, need, fmt::format("{} `{}`", vowel ? "an" : "a", type.name), value);

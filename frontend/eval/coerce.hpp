@@ -1,6 +1,6 @@
 // Whether a value serves where a type is required, and the value it becomes: the only place that
-// knows the implicit conversions (int to num, plain number to SI, list to vector, list of transforms
-// to transform) and the words for what does not fit.
+// knows the implicit conversions (int to num, plain number to SI, list to vector, list of
+// transforms to transform) and the words for what does not fit.
 #pragma once
 
 #include <optional>
@@ -40,14 +40,17 @@ struct Need {
 // "needs a length such as `0.5m`; found an angle"; poison.
 Value type_error(Session& session, const Need& need, std::string_view wanted, const Value& found);
 
-[[nodiscard]] Value coerce(Session& session, const Value& value, const TypeRef& type, const Need& need);
+[[nodiscard]] Value coerce(Session& session, const Value& value, const TypeRef& type,
+                           const Need& need);
 // A number of the dimension.
-[[nodiscard]] Value coerce_quantity(Session& session, const Value& value, Dimension wanted, const Need& need);
+[[nodiscard]] Value coerce_quantity(Session& session, const Value& value, Dimension wanted,
+                                    const Need& need);
 // A vector of `size` components; with `dimension` nullopt plain numbers or lengths.
 [[nodiscard]] Value coerce_vector(Session& session, const Value& value, std::size_t size,
                                   std::optional<Dimension> wanted, const Need& need);
 [[nodiscard]] Value coerce_transform(Session& session, const Value& value, const Need& need);
-// Refuses dimensions that have no name (m^2): bindings, arguments, keys and elements cannot hold them.
+// Refuses dimensions that have no name (m^2): bindings, arguments, keys and elements cannot hold
+// them.
 [[nodiscard]] Value coerce_named(Session& session, const Value& value, const Need& need);
 
 // True when a plain number becomes this dimension by itself.
@@ -58,11 +61,12 @@ Value type_error(Session& session, const Need& need, std::string_view wanted, co
 [[nodiscard]] constexpr bool is_named(Dimension d) {
   return d.none() || d == dimension::angle || adopts_si(d);
 }
-// The common dimension of two operands, a plain number taking the other's; nullopt: they do not mix.
+// The common dimension of two operands, a plain number taking the other's; nullopt: they do not
+// mix.
 [[nodiscard]] std::optional<Dimension> common_dimension(const Value& a, const Value& b);
 // The diagnostic when they do not.
-Value mixed_dimensions(Session& session, Span span, std::string_view what, const Value& a, const Value& b,
-                       grammar::NodeRef a_node, grammar::NodeRef b_node);
+Value mixed_dimensions(Session& session, Span span, std::string_view what, const Value& a,
+                       const Value& b, grammar::NodeRef a_node, grammar::NodeRef b_node);
 
 // Transforms applied in the order of the list.
 [[nodiscard]] ir::Transform composed(const std::vector<Value>& transforms);

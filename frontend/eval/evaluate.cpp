@@ -23,7 +23,9 @@ struct Numeral {
   bool real = false;  // has a point or an exponent
 };
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 Numeral split_numeral(std::string_view text) {
   std::size_t i = 0;
@@ -38,7 +40,8 @@ Numeral split_numeral(std::string_view text) {
     numeral.real = true;
   }
   if (i < text.size() && text[i] == 'e') {
-    const std::size_t sign = i + 1 < text.size() && (text[i + 1] == '+' || text[i + 1] == '-') ? 1 : 0;
+    const std::size_t sign =
+        i + 1 < text.size() && (text[i + 1] == '+' || text[i + 1] == '-') ? 1 : 0;
     if (i + 1 + sign < text.size() && is_digit(text[i + 1 + sign])) {
       i += 1 + sign;
       skip_digits();
@@ -59,14 +62,17 @@ Value color_literal(std::string_view text) {
   std::array<double, 3> linear{};
   const bool is_short = text.size() == 4;
   for (std::size_t i = 0; i < 3; ++i) {
-    const int byte = is_short ? hex_digit(text[1 + i]) * 17 : hex_digit(text[1 + 2 * i]) * 16 + hex_digit(text[2 + 2 * i]);
+    const int byte = is_short ? hex_digit(text[1 + i]) * 17
+                              : hex_digit(text[1 + 2 * i]) * 16 + hex_digit(text[2 + 2 * i]);
     linear[i] = srgb_decoded(byte / 255.0);
   }
   return make_color(linear[0], linear[1], linear[2]);
 }
 
 void append_utf8(std::string& out, std::uint32_t point) {
-  const auto put = [&](std::uint32_t byte) { out += static_cast<char>(static_cast<unsigned char>(byte)); };
+  const auto put = [&](std::uint32_t byte) {
+    out += static_cast<char>(static_cast<unsigned char>(byte));
+  };
   if (point < 0x80) return put(point);
   if (point < 0x800) {
     put(0xC0 | (point >> 6));
@@ -97,7 +103,8 @@ std::string decoded_string(std::string_view quoted) {
     const char escape = body[++i];
     if (escape == 'u' && i + 1 < body.size() && body[i + 1] == '{') {
       std::uint32_t point = 0;
-      for (i += 2; i < body.size() && body[i] != '}'; ++i) point = (point * 16 + static_cast<std::uint32_t>(hex_digit(body[i]))) & 0x1FFFFF;
+      for (i += 2; i < body.size() && body[i] != '}'; ++i)
+        point = (point * 16 + static_cast<std::uint32_t>(hex_digit(body[i]))) & 0x1FFFFF;
       append_utf8(text, point);
     } else {
       text += escape == 'n' ? '\n' : escape == 't' ? '\t' : escape;
@@ -109,28 +116,42 @@ std::string decoded_string(std::string_view quoted) {
 Value Evaluator::evaluate(NodeRef node, Scope& scope) {
   if (!node || !session_.spend(1, node.span())) return {};
   switch (node.kind()) {
-    case SyntaxKind::number_literal: return number_literal(node);
-    case SyntaxKind::string_literal: return make_string(decoded_string(node.text()), node.span().file);
-    case SyntaxKind::color_literal: return color_literal(node.text());
-    case SyntaxKind::enum_literal: return make_enumeration(node.text().substr(1));
+    case SyntaxKind::number_literal:
+      return number_literal(node);
+    case SyntaxKind::string_literal:
+      return make_string(decoded_string(node.text()), node.span().file);
+    case SyntaxKind::color_literal:
+      return color_literal(node.text());
+    case SyntaxKind::enum_literal:
+      return make_enumeration(node.text().substr(1));
     case SyntaxKind::bool_literal: {
       const Value value = make_bool(node.text() == "true");
       return session_.checking_only() ? type_of(value) : value;
     }
-    case SyntaxKind::name_ref: return name_value(node, scope);
-    case SyntaxKind::paren: return evaluate(ast::expression_of(node), scope);
-    case SyntaxKind::unary: return unary(node, scope);
+    case SyntaxKind::name_ref:
+      return name_value(node, scope);
+    case SyntaxKind::paren:
+      return evaluate(ast::expression_of(node), scope);
+    case SyntaxKind::unary:
+      return unary(node, scope);
     case SyntaxKind::multiply_chain:
-    case SyntaxKind::add_chain: return chain(node, scope);
-    case SyntaxKind::comparison: return compare(node, scope);
+    case SyntaxKind::add_chain:
+      return chain(node, scope);
+    case SyntaxKind::comparison:
+      return compare(node, scope);
     case SyntaxKind::and_chain:
-    case SyntaxKind::or_chain: return logical_chain(node, scope);
-    case SyntaxKind::list: return list(node, scope);
-    case SyntaxKind::comprehension: return comprehension(node, scope);
+    case SyntaxKind::or_chain:
+      return logical_chain(node, scope);
+    case SyntaxKind::list:
+      return list(node, scope);
+    case SyntaxKind::comprehension:
+      return comprehension(node, scope);
     case SyntaxKind::member:
     case SyntaxKind::index:
-    case SyntaxKind::call: return postfix(node, scope);
-    default: return {};  // an error node: reported by the grammar
+    case SyntaxKind::call:
+      return postfix(node, scope);
+    default:
+      return {};  // an error node: reported by the grammar
   }
 }
 
@@ -141,31 +162,38 @@ Value Evaluator::number_literal(NodeRef node) {
   Value value;
   if (!numeral.real && numeral.unit.empty()) {
     std::int64_t integer = 0;
-    const auto [end, error] = std::from_chars(numeral.digits.data(), numeral.digits.data() + numeral.digits.size(), integer);
+    const auto [end, error] = std::from_chars(
+        numeral.digits.data(), numeral.digits.data() + numeral.digits.size(), integer);
     if (error != std::errc{}) {
-      return session_.error(Diagnostic(DiagnosticKind::numeral_too_large, node.span(),
-                                       fmt::format("`{}` does not fit into a 64-bit integer", printable(text)))
-                                .hint("write it with a decimal point to make it a `num`"));
+      return session_.error(
+          Diagnostic(DiagnosticKind::numeral_too_large, node.span(),
+                     fmt::format("`{}` does not fit into a 64-bit integer", printable(text)))
+              .hint("write it with a decimal point to make it a `num`"));
     }
     value = make_int(integer);
     value.literal_zero = integer == 0;
   } else {
     const auto number = parse_double(numeral.digits);
     if (!number) {
-      return session_.error(DiagnosticKind::numeral_too_large, node.span(),
-                            fmt::format("`{}` is beyond the largest number, about 1.8e308", printable(text)));
+      return session_.error(
+          DiagnosticKind::numeral_too_large, node.span(),
+          fmt::format("`{}` is beyond the largest number, about 1.8e308", printable(text)));
     }
     if (numeral.unit.empty()) {
       value = make_number(*number);
     } else if (const auto unit = find_unit(numeral.unit)) {
-      value = finite_number(session_, *number * unit->multiply / unit->divide, unit->dimension, node.span(), printable(text));
+      value = finite_number(session_, *number * unit->multiply / unit->divide, unit->dimension,
+                            node.span(), printable(text));
     } else {
       std::array<std::string_view, 11> names;
       for (std::size_t i = 0; i < names.size(); ++i) names[i] = all_units()[i].suffix;
-      const std::size_t unit_at = token ? token.span().begin + numeral.digits.size() : node.span().begin;
-      const Span span{node.span().file, static_cast<std::uint32_t>(unit_at), token ? token.span().end : node.span().end};
+      const std::size_t unit_at =
+          token ? token.span().begin + numeral.digits.size() : node.span().begin;
+      const Span span{node.span().file, static_cast<std::uint32_t>(unit_at),
+                      token ? token.span().end : node.span().end};
       session_.report(unknown_word(DiagnosticKind::unknown_unit, span,
-                                   fmt::format("there is no unit `{}`", printable(numeral.unit)), numeral.unit, names, "units"));
+                                   fmt::format("there is no unit `{}`", printable(numeral.unit)),
+                                   numeral.unit, names, "units"));
       return {};
     }
   }
@@ -183,7 +211,8 @@ Value Evaluator::unary(NodeRef node, Scope& scope) {
   const NodeRef operand = ast::expression_of(node);
   Value value = evaluate(operand, scope);
   if (negate && invert) {  // no type has both
-    return session_.error(DiagnosticKind::operand_types, node.span(), "`!` and `-` cannot be applied to one value");
+    return session_.error(DiagnosticKind::operand_types, node.span(),
+                          "`!` and `-` cannot be applied to one value");
   }
   for (NodeRef child : node.children()) {
     if (!child.is(SyntaxKind::operator_token)) continue;
@@ -211,7 +240,8 @@ Value Evaluator::chain(NodeRef node, Scope& scope) {
     } else {
       const Value right = evaluate(child, scope);
       const Span span{node.span().file, node.span().begin, child.span().end};
-      total = arithmetic(session_, total, right, {.op = op, .span = span, .left = left, .right = child});
+      total = arithmetic(session_, total, right,
+                         {.op = op, .span = span, .left = left, .right = child});
       left = {};
     }
   }
@@ -245,7 +275,8 @@ Value Evaluator::logical_chain(NodeRef node, Scope& scope) {
       static_cast<void>(condition(session_, evaluate(child, scope), stops_at ? "||" : "&&", child));
       continue;
     }
-    const Value operand = condition(session_, evaluate(child, scope), stops_at ? "||" : "&&", child);
+    const Value operand =
+        condition(session_, evaluate(child, scope), stops_at ? "||" : "&&", child);
     if (operand.poisoned()) {
       result = {};
       decided = true;

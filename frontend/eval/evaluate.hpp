@@ -25,12 +25,13 @@ class Evaluator {
 
   // Arguments of a call, evaluated and coerced, in the order of the parameters, declared in `into`.
   // False when one is wrong (reported).
-  bool bind_arguments(grammar::NodeRef parameters, grammar::NodeRef arguments, grammar::NodeRef call,
-                      std::string_view callee, Scope& caller, Scope& into);
+  bool bind_arguments(grammar::NodeRef parameters, grammar::NodeRef arguments,
+                      grammar::NodeRef call, std::string_view callee, Scope& caller, Scope& into);
   // Every parameter with nothing but its type known.
   void bind_unknown_parameters(grammar::NodeRef parameters, Scope& into);
   // Value against the `in` range behind a param or parameter; poison (reported) outside of it.
-  Value in_range(const Value& value, grammar::NodeRef range, Scope& scope, std::string_view subject, Span span);
+  Value in_range(const Value& value, grammar::NodeRef range, Scope& scope, std::string_view subject,
+                 Span span);
 
   // Runs `body(scope)` for each round of a loop, the variables declared in `scope`; stops when it
   // returns false. When only types are known it runs once.
@@ -38,14 +39,16 @@ class Evaluator {
 
   // The declaration a use refers to; nullptr (reported) when there is none.
   Scope::Found resolve(grammar::NodeRef name, Scope& scope);
-  // `ns` of `ns.name`: the scope of an included file, nullptr when that could not be read (reported);
-  // nullopt when the name is no namespace.
+  // `ns` of `ns.name`: the scope of an included file, nullptr when that could not be read
+  // (reported); nullopt when the name is no namespace.
   [[nodiscard]] std::optional<Scope*> name_space(grammar::NodeRef name, Scope& scope);
   Scope::Found resolve_in(Scope& name_space, grammar::NodeRef space, grammar::NodeRef name);
   // Whether a function or macro is being run already; a call from inside is recursion.
   [[nodiscard]] bool is_active(grammar::NodeRef declaration) const;
   struct Activating {
-    Activating(Evaluator& owner, grammar::NodeRef declaration) : evaluator(owner) { owner.active_.push_back(declaration); }
+    Activating(Evaluator& owner, grammar::NodeRef declaration) : evaluator(owner) {
+      owner.active_.push_back(declaration);
+    }
     ~Activating() { evaluator.active_.pop_back(); }
     Activating(const Activating&) = delete;
     Activating& operator=(const Activating&) = delete;
@@ -69,14 +72,18 @@ class Evaluator {
   Value member(const Value& value, grammar::NodeRef node);
   Value index(const Value& value, grammar::NodeRef node, Scope& scope);
   Value call(grammar::NodeRef node, grammar::NodeRef callee, Scope& scope);
-  Value call_binding(grammar::NodeRef node, grammar::NodeRef callee, Scope::Found found, Scope& scope);
+  Value call_binding(grammar::NodeRef node, grammar::NodeRef callee, Scope::Found found,
+                     Scope& scope);
   Value call_builtin(grammar::NodeRef node, const Builtin& function, Scope& scope);
   Value select(grammar::NodeRef node, Scope& scope);
-  bool bind_builtin(Call& call, const Builtin& function, const std::vector<ast::Argument>& given, Scope& scope);
+  bool bind_builtin(Call& call, const Builtin& function, const std::vector<ast::Argument>& given,
+                    Scope& scope);
   void unknown_name(grammar::NodeRef name, Scope& scope);
   [[nodiscard]] std::optional<Span> declared_later(grammar::NodeRef name) const;
-  void loop_over_range(const ast::Loop& parts, Scope& scope, const std::function<bool(Scope&)>& body);
-  void loop_over_list(const ast::Loop& parts, Scope& scope, const std::function<bool(Scope&)>& body);
+  void loop_over_range(const ast::Loop& parts, Scope& scope,
+                       const std::function<bool(Scope&)>& body);
+  void loop_over_list(const ast::Loop& parts, Scope& scope,
+                      const std::function<bool(Scope&)>& body);
   void declare_variables(const ast::Loop& parts, Scope& round);
   bool run_round(const ast::Loop& parts, Scope& round, Value index, Value element,
                  const std::function<bool(Scope&)>& body);

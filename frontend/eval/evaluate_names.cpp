@@ -25,8 +25,10 @@ bool declares(SyntaxKind kind) {
     case SyntaxKind::macro:
     case SyntaxKind::proto:
     case SyntaxKind::material:
-    case SyntaxKind::include: return true;
-    default: return false;
+    case SyntaxKind::include:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -47,26 +49,30 @@ std::optional<Span> Evaluator::declared_later(NodeRef name) const {
 void Evaluator::unknown_name(NodeRef name, Scope& scope) {
   const std::string_view word = name.text();
   if (find_builtin(word) != nullptr || word == "select") {
-    session_.error(Diagnostic(DiagnosticKind::name_without_value, name.span(), fmt::format("`{}` is a function, not a value", printable(word)))
+    session_.error(Diagnostic(DiagnosticKind::name_without_value, name.span(),
+                              fmt::format("`{}` is a function, not a value", printable(word)))
                        .hint(fmt::format("call it: `{}(...)`", printable(word))));
     return;
   }
   if (++unknown_names_ > max_searched_names) {
-    session_.error(DiagnosticKind::unknown_name, name.span(), fmt::format("there is no `{}` here", printable(word)));
+    session_.error(DiagnosticKind::unknown_name, name.span(),
+                   fmt::format("there is no `{}` here", printable(word)));
     return;
   }
   if (const auto later = declared_later(name)) {
     const bool inside = later->begin < name.span().begin;
-    session_.error(Diagnostic(DiagnosticKind::used_before_declaration, name.span(),
-                              inside ? fmt::format("`{}` is used in its own declaration", printable(word))
-                                     : fmt::format("`{}` is used before it is declared", printable(word)))
-                       .note("declared here", *later));
+    session_.error(
+        Diagnostic(DiagnosticKind::used_before_declaration, name.span(),
+                   inside ? fmt::format("`{}` is used in its own declaration", printable(word))
+                          : fmt::format("`{}` is used before it is declared", printable(word)))
+            .note("declared here", *later));
     return;
   }
   std::vector<std::string_view> names = scope.visible_names(name.span());
   names.insert(names.end(), constant_names().begin(), constant_names().end());
-  session_.report(unknown_word(DiagnosticKind::unknown_name, name.span(), fmt::format("there is no `{}` here", printable(word)), word,
-                               names, "names in scope"));
+  session_.report(unknown_word(DiagnosticKind::unknown_name, name.span(),
+                               fmt::format("there is no `{}` here", printable(word)), word, names,
+                               "names in scope"));
 }
 
 Scope::Found Evaluator::resolve(NodeRef name, Scope& scope) {
@@ -81,7 +87,8 @@ Scope::Found Evaluator::resolve(NodeRef name, Scope& scope) {
 
 std::optional<Scope*> Evaluator::name_space(NodeRef name, Scope& scope) {
   const Scope::Found found = scope.find(name.text(), name.span());
-  if (found.binding == nullptr || found.binding->kind != BindingKind::name_space) return std::nullopt;
+  if (found.binding == nullptr || found.binding->kind != BindingKind::name_space)
+    return std::nullopt;
   found.binding->used = true;
   return found.scope->name_space(found.binding->name).get();
 }
@@ -93,9 +100,10 @@ Scope::Found Evaluator::resolve_in(Scope& space, NodeRef space_name, NodeRef nam
   for (const Binding& candidate : space.bindings()) {
     if (candidate.kind != BindingKind::name_space) names.push_back(candidate.name);
   }
-  session_.report(unknown_word(DiagnosticKind::unknown_namespace_member, name.span(),
-                               fmt::format("`{}` declares no `{}`", printable(space_name.text()), printable(name.text())), name.text(),
-                               names, "it declares"));
+  session_.report(unknown_word(
+      DiagnosticKind::unknown_namespace_member, name.span(),
+      fmt::format("`{}` declares no `{}`", printable(space_name.text()), printable(name.text())),
+      name.text(), names, "it declares"));
   return {};
 }
 
@@ -104,21 +112,27 @@ Value Evaluator::binding_value(Binding& binding, NodeRef node) {
     case BindingKind::function:
     case BindingKind::macro:
     case BindingKind::name_space: {
-      Diagnostic diagnostic(DiagnosticKind::name_without_value, node.span(),
-                            fmt::format("`{}` is a {}, not a value", printable(binding.name), text_of(binding.kind)));
-      if (binding.kind == BindingKind::function) diagnostic.hints.push_back(fmt::format("call it: `{}(...)`", printable(binding.name)));
-      if (binding.kind == BindingKind::name_space) diagnostic.hints.push_back(fmt::format("its declarations are `{}.name`", printable(binding.name)));
+      Diagnostic diagnostic(
+          DiagnosticKind::name_without_value, node.span(),
+          fmt::format("`{}` is a {}, not a value", printable(binding.name), text_of(binding.kind)));
+      if (binding.kind == BindingKind::function)
+        diagnostic.hints.push_back(fmt::format("call it: `{}(...)`", printable(binding.name)));
+      if (binding.kind == BindingKind::name_space)
+        diagnostic.hints.push_back(
+            fmt::format("its declarations are `{}.name`", printable(binding.name)));
       diagnostic.notes.push_back({"declared here", binding.span});
       return session_.error(std::move(diagnostic));
     }
-    default: return session_.checking_only() ? type_of(binding.value) : binding.value;
+    default:
+      return session_.checking_only() ? type_of(binding.value) : binding.value;
   }
 }
 
 Value Evaluator::name_value(NodeRef node, Scope& scope) {
   const Scope::Found found = scope.find(node.text(), node.span());
   if (found.binding == nullptr) {
-    if (auto constant = find_constant(node.text())) return session_.checking_only() ? type_of(*constant) : std::move(*constant);
+    if (auto constant = find_constant(node.text()))
+      return session_.checking_only() ? type_of(*constant) : std::move(*constant);
     unknown_name(node, scope);
     return {};
   }
@@ -130,7 +144,8 @@ Value Evaluator::name_value(NodeRef node, Scope& scope) {
 Value Evaluator::postfix(NodeRef node, Scope& scope) {
   std::vector<NodeRef> outer_first;
   NodeRef base = node;
-  while (base && (base.is(SyntaxKind::member) || base.is(SyntaxKind::index) || base.is(SyntaxKind::call))) {
+  while (base &&
+         (base.is(SyntaxKind::member) || base.is(SyntaxKind::index) || base.is(SyntaxKind::call))) {
     outer_first.push_back(base);
     base = ast::expression_of(base);
   }
@@ -141,7 +156,9 @@ Value Evaluator::postfix(NodeRef node, Scope& scope) {
   if (base.is(SyntaxKind::name_ref) && first.is(SyntaxKind::call)) {
     value = call(first, base, scope);
     --left;
-  } else if (const auto space = base.is(SyntaxKind::name_ref) && first.is(SyntaxKind::member) ? name_space(base, scope) : std::nullopt) {
+  } else if (const auto space = base.is(SyntaxKind::name_ref) && first.is(SyntaxKind::member)
+                                    ? name_space(base, scope)
+                                    : std::nullopt) {
     const NodeRef name = first.find_child(SyntaxKind::name);
     if (!name || *space == nullptr) return {};
     const Scope::Found found = resolve_in(**space, base, name);
@@ -165,7 +182,8 @@ Value Evaluator::postfix(NodeRef node, Scope& scope) {
     } else if (step.is(SyntaxKind::index)) {
       value = index(value, step, scope);
     } else {
-      return session_.error(DiagnosticKind::unknown_function, step.span(), fmt::format("{} cannot be called", described(value)));
+      return session_.error(DiagnosticKind::unknown_function, step.span(),
+                            fmt::format("{} cannot be called", described(value)));
     }
   }
   return value;
@@ -192,8 +210,10 @@ Value Evaluator::member(const Value& value, NodeRef node) {
   const auto members = members_of(value);
   const auto place = std::find(members.begin(), members.end(), name.text());
   if (place == members.end()) {
-    session_.report(unknown_word(DiagnosticKind::unknown_member, name.span(),
-                                 fmt::format("{} has no member `{}`", described(value), printable(name.text())), name.text(), members, "members"));
+    session_.report(
+        unknown_word(DiagnosticKind::unknown_member, name.span(),
+                     fmt::format("{} has no member `{}`", described(value), printable(name.text())),
+                     name.text(), members, "members"));
     return {};
   }
   const auto i = static_cast<std::size_t>(place - members.begin());
@@ -217,18 +237,21 @@ Value Evaluator::index(const Value& value, NodeRef node, Scope& scope) {
   for (NodeRef child : node.children()) {
     if (ast::is_expression(child.kind())) place = child;  // the last one is in the brackets
   }
-  const Value at = coerce(session_, evaluate(place, scope), integer_type, {.subject = "[ ]", .node = place});
+  const Value at =
+      coerce(session_, evaluate(place, scope), integer_type, {.subject = "[ ]", .node = place});
   if (at.poisoned()) return {};
   if (!is_listlike(value)) {
     const NodeRef list = ast::expression_of(node);
-    return session_.error(DiagnosticKind::type_mismatch, list.span(), fmt::format("`[ ]` needs a list; found {}", described(value)));
+    return session_.error(DiagnosticKind::type_mismatch, list.span(),
+                          fmt::format("`[ ]` needs a list; found {}", described(value)));
   }
   const std::size_t count = element_count(value);
   if (!value.known || !at.known) return count > 0 ? type_of(element_of(value, 0)) : Value{};
   if (at.integer < 0 || static_cast<std::uint64_t>(at.integer) >= count) {
-    return session_.error(DiagnosticKind::index_out_of_range, place.span(),
-                          count == 0 ? fmt::format("the index is {}, the list is empty", at.integer)
-                                     : fmt::format("the index is {}; needs 0 to {}", at.integer, count - 1));
+    return session_.error(
+        DiagnosticKind::index_out_of_range, place.span(),
+        count == 0 ? fmt::format("the index is {}, the list is empty", at.integer)
+                   : fmt::format("the index is {}; needs 0 to {}", at.integer, count - 1));
   }
   return element_of(value, static_cast<std::size_t>(at.integer));
 }

@@ -51,7 +51,8 @@ bool unify(Session& session, ValueList& elements, NodeRef list, std::span<const 
 
 }  // namespace
 
-Value checked_list(Session& session, ValueList elements, NodeRef list, std::span<const NodeRef> nodes) {
+Value checked_list(Session& session, ValueList elements, NodeRef list,
+                   std::span<const NodeRef> nodes) {
   bool known = !session.checking_only();
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (elements[i].poisoned()) return {};
@@ -59,7 +60,8 @@ Value checked_list(Session& session, ValueList elements, NodeRef list, std::span
     const NodeRef here = nodes.empty() ? list : nodes[i];
     if (!same_family(elements[0], elements[i]) && !is_ramp_stop(elements)) {
       Diagnostic diagnostic(DiagnosticKind::mixed_list, here.span(),
-                            fmt::format("a list that starts with {} cannot hold {}", described(elements[0]), described(elements[i])));
+                            fmt::format("a list that starts with {} cannot hold {}",
+                                        described(elements[0]), described(elements[i])));
       return session.error(std::move(diagnostic));
     }
     if (coerce_named(session, elements[i], {.subject = "[ ]", .node = here}).poisoned()) return {};

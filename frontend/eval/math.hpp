@@ -34,13 +34,29 @@ inline constexpr double pi = std::numbers::pi;
   const int phase = ((*quarters % 4) + 4) % 4;
   return phase == 0 ? 1.0 : phase == 2 ? -1.0 : 0.0;
 }
-[[nodiscard]] inline double tangent(double angle) { return std::tan(angle); }
-[[nodiscard]] inline double arc_sine(double x) { return std::asin(x); }
-[[nodiscard]] inline double arc_cosine(double x) { return std::acos(x); }
-[[nodiscard]] inline double arc_tangent(double x) { return std::atan(x); }
-[[nodiscard]] inline double arc_tangent(double y, double x) { return std::atan2(y, x); }
-[[nodiscard]] inline double power(double base, double exponent) { return std::pow(base, exponent); }
-[[nodiscard]] inline double exponential(double x) { return std::exp(x); }
-[[nodiscard]] inline double logarithm(double x) { return std::log(x); }
+[[nodiscard]] inline double tangent(double angle) {
+  return std::tan(angle);
+}
+[[nodiscard]] inline double arc_sine(double x) {
+  return std::asin(x);
+}
+[[nodiscard]] inline double arc_cosine(double x) {
+  return std::acos(x);
+}
+[[nodiscard]] inline double arc_tangent(double x) {
+  return std::atan(x);
+}
+[[nodiscard]] inline double arc_tangent(double y, double x) {
+  return std::atan2(y, x);
+}
+[[nodiscard]] inline double power(double base, double exponent) {
+  return std::pow(base, exponent);
+}
+[[nodiscard]] inline double exponential(double x) {
+  return std::exp(x);
+}
+[[nodiscard]] inline double logarithm(double x) {
+  return std::log(x);
+}
 
 }  // namespace scenec::frontend::math

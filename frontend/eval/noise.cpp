@@ -13,12 +13,18 @@ std::uint64_t mixed_bits(std::uint64_t state, std::uint64_t value) {
   return z ^ (z >> 31);
 }
 
-double unit_interval(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+double unit_interval(std::uint64_t bits) {
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
 
 namespace {
 
-double faded(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
-double blended(double t, double a, double b) { return a + t * (b - a); }
+double faded(double t) {
+  return t * t * t * (t * (t * 6 - 15) + 10);
+}
+double blended(double t, double a, double b) {
+  return a + t * (b - a);
+}
 
 // The twelve edge directions of a cube (four of them twice).
 double gradient(std::uint64_t hash, double x, double y, double z) {
@@ -37,16 +43,19 @@ double gradient_noise(const std::array<double, 3>& p) {
     const double whole = std::floor(p[i]);
     fraction[i] = p[i] - whole;
     // Beyond 2^62 every coordinate is whole and the noise is zero anyway.
-    cell[i] = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(whole, -0x1p62, 0x1p62)));
+    cell[i] =
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(whole, -0x1p62, 0x1p62)));
   }
   const auto corner = [&](std::uint64_t dx, std::uint64_t dy, std::uint64_t dz) {
-    const std::uint64_t hash = mixed_bits(mixed_bits(mixed_bits(0, cell[0] + dx), cell[1] + dy), cell[2] + dz) >> 32;
-    return gradient(hash, fraction[0] - static_cast<double>(dx), fraction[1] - static_cast<double>(dy),
-                    fraction[2] - static_cast<double>(dz));
+    const std::uint64_t hash =
+        mixed_bits(mixed_bits(mixed_bits(0, cell[0] + dx), cell[1] + dy), cell[2] + dz) >> 32;
+    return gradient(hash, fraction[0] - static_cast<double>(dx),
+                    fraction[1] - static_cast<double>(dy), fraction[2] - static_cast<double>(dz));
   };
   const double u = faded(fraction[0]), v = faded(fraction[1]), w = faded(fraction[2]);
   const auto layer = [&](std::uint64_t dz) {
-    return blended(v, blended(u, corner(0, 0, dz), corner(1, 0, dz)), blended(u, corner(0, 1, dz), corner(1, 1, dz)));
+    return blended(v, blended(u, corner(0, 0, dz), corner(1, 0, dz)),
+                   blended(u, corner(0, 1, dz), corner(1, 1, dz)));
   };
   return std::clamp(blended(w, layer(0), layer(1)), -1.0, 1.0);
 }

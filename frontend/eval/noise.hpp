@@ -1,4 +1,5 @@
-// The pure random functions of the language: the same value for the same arguments on every machine.
+// The pure random functions of the language: the same value for the same arguments on every
+// machine.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// The operators of expressions on values: types, dimensions, overflow. What does not fit is reported
-// and gives the poison value.
+// The operators of expressions on values: types, dimensions, overflow. What does not fit is
+// reported and gives the poison value.
 #pragma once
 
 #include <string_view>
@@ -11,20 +11,24 @@
 namespace scenec::frontend {
 
 struct Operation {
-  std::string_view op;     // as written
-  Span span;               // of the operation so far
-  grammar::NodeRef left;   // may be empty: the result of earlier operations of a chain
+  std::string_view op;    // as written
+  Span span;              // of the operation so far
+  grammar::NodeRef left;  // may be empty: the result of earlier operations of a chain
   grammar::NodeRef right;
 };
 
-[[nodiscard]] Value arithmetic(Session& session, const Value& a, const Value& b, const Operation& where);
-[[nodiscard]] Value comparison(Session& session, const Value& a, const Value& b, const Operation& where);
+[[nodiscard]] Value arithmetic(Session& session, const Value& a, const Value& b,
+                               const Operation& where);
+[[nodiscard]] Value comparison(Session& session, const Value& a, const Value& b,
+                               const Operation& where);
 [[nodiscard]] Value negated(Session& session, const Value& value, Span span);
 // The truth of a condition; poison (reported) when it is none.
-[[nodiscard]] Value condition(Session& session, const Value& value, std::string_view subject, grammar::NodeRef node);
+[[nodiscard]] Value condition(Session& session, const Value& value, std::string_view subject,
+                              grammar::NodeRef node);
 
 // A finite number, or an error that says the result of `what` is not.
-[[nodiscard]] Value finite_number(Session& session, double value, Dimension dimension, Span span, std::string_view what);
+[[nodiscard]] Value finite_number(Session& session, double value, Dimension dimension, Span span,
+                                  std::string_view what);
 // The product a * b as a texture, at least one of which is one.
 [[nodiscard]] Value texture_product(Session& session, const Value& a, const Value& b);
 // A colour, number or texture as the input of a texture node.

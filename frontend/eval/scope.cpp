@@ -13,15 +13,24 @@ bool is_visible(const Binding& binding, Span use) {
 
 std::string_view text_of(BindingKind kind) {
   switch (kind) {
-    case BindingKind::let: return "let";
-    case BindingKind::param: return "param";
-    case BindingKind::loop_variable: return "loop variable";
-    case BindingKind::parameter: return "parameter";
-    case BindingKind::material: return "material";
-    case BindingKind::proto: return "proto";
-    case BindingKind::function: return "function";
-    case BindingKind::macro: return "macro";
-    case BindingKind::name_space: return "namespace";
+    case BindingKind::let:
+      return "let";
+    case BindingKind::param:
+      return "param";
+    case BindingKind::loop_variable:
+      return "loop variable";
+    case BindingKind::parameter:
+      return "parameter";
+    case BindingKind::material:
+      return "material";
+    case BindingKind::proto:
+      return "proto";
+    case BindingKind::function:
+      return "function";
+    case BindingKind::macro:
+      return "macro";
+    case BindingKind::name_space:
+      return "namespace";
   }
   return "name";
 }
@@ -54,7 +63,8 @@ Binding& Scope::add(Binding binding) {
   bindings_.push_back(std::move(binding));
   if (bindings_.size() > max_unindexed) {
     auto& index = extras().index;
-    for (std::size_t i = index.size(); i < bindings_.size(); ++i) index.emplace(bindings_[i].name, static_cast<std::uint32_t>(i));
+    for (std::size_t i = index.size(); i < bindings_.size(); ++i)
+      index.emplace(bindings_[i].name, static_cast<std::uint32_t>(i));
   }
   return bindings_.back();
 }

@@ -1,5 +1,5 @@
-// Names in force at one place: a chain of blocks, innermost first. A name is visible only behind its
-// declaration in the same file, which is also what keeps a function's body from seeing what was
+// Names in force at one place: a chain of blocks, innermost first. A name is visible only behind
+// its declaration in the same file, which is also what keeps a function's body from seeing what was
 // declared after it.
 #pragma once
 
@@ -16,7 +16,17 @@
 
 namespace scenec::frontend {
 
-enum class BindingKind : std::uint8_t { let, param, loop_variable, parameter, material, proto, function, macro, name_space };
+enum class BindingKind : std::uint8_t {
+  let,
+  param,
+  loop_variable,
+  parameter,
+  material,
+  proto,
+  function,
+  macro,
+  name_space
+};
 [[nodiscard]] std::string_view text_of(BindingKind kind);
 
 class Scope;

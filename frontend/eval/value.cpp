@@ -40,8 +40,8 @@ bool fits_vector(const ValueList& elements) {
   if (elements.size() != 2 && elements.size() != 3) return false;
   for (const Value& element : elements) {
     if (!element.is_number() || element.dimension != elements[0].dimension) return false;
-    if (element.is(Type::integer) && (element.integer > largest_exact_integer ||
-                                      element.integer < -largest_exact_integer)) {
+    if (element.is(Type::integer) &&
+        (element.integer > largest_exact_integer || element.integer < -largest_exact_integer)) {
       return false;
     }
   }
@@ -50,10 +50,18 @@ bool fits_vector(const ValueList& elements) {
 
 }  // namespace
 
-const std::string& Value::text() const { return content_of<std::string>(*this); }
-const ValueList& Value::elements() const { return content_of<ValueList>(*this); }
-const ir::Transform& Value::transform() const { return content_of<ir::Transform>(*this); }
-const ir::Curve& Value::curve() const { return content_of<ir::Curve>(*this); }
+const std::string& Value::text() const {
+  return content_of<std::string>(*this);
+}
+const ValueList& Value::elements() const {
+  return content_of<ValueList>(*this);
+}
+const ir::Transform& Value::transform() const {
+  return content_of<ir::Transform>(*this);
+}
+const ir::Curve& Value::curve() const {
+  return content_of<ir::Curve>(*this);
+}
 
 Value make_bool(bool flag) {
   Value value;
@@ -114,8 +122,12 @@ Value make_list(ValueList elements) {
   return value;
 }
 
-Value make_transform(const ir::Transform& transform) { return on_heap(Type::transform, transform); }
-Value make_curve(ir::Curve curve) { return on_heap(Type::curve, std::move(curve)); }
+Value make_transform(const ir::Transform& transform) {
+  return on_heap(Type::transform, transform);
+}
+Value make_curve(ir::Curve curve) {
+  return on_heap(Type::curve, std::move(curve));
+}
 
 Value make_texture(ir::TextureId id, bool grey) {
   Value value = with_id(Type::texture, id);
@@ -123,8 +135,12 @@ Value make_texture(ir::TextureId id, bool grey) {
   return value;
 }
 
-Value make_material(ir::MaterialId id) { return with_id(Type::material, id); }
-Value make_proto(ir::ProtoId id) { return with_id(Type::proto, id); }
+Value make_material(ir::MaterialId id) {
+  return with_id(Type::material, id);
+}
+Value make_proto(ir::ProtoId id) {
+  return with_id(Type::proto, id);
+}
 
 Value make_filter(std::int64_t kind, double radius) {
   Value value;
@@ -158,7 +174,9 @@ Value type_of(const Value& value) {
   return copy;
 }
 
-bool is_listlike(const Value& value) { return value.is(Type::list) || value.is_vector(); }
+bool is_listlike(const Value& value) {
+  return value.is(Type::list) || value.is_vector();
+}
 
 std::size_t element_count(const Value& value) {
   if (value.is_vector()) return value.vector_size();
@@ -199,23 +217,38 @@ std::string described_vector(const Value& value) {
 
 std::string described(const Value& value) {
   switch (value.type) {
-    case Type::poison: return "nothing";
-    case Type::boolean: return "a truth value";
-    case Type::integer: return "an integer";
-    case Type::number: return with_article(value.dimension);
-    case Type::string: return "a string";
-    case Type::enumeration: return value.heap ? fmt::format("`.{}`", printable(value.text())) : "a choice";
-    case Type::color: return "a color";
+    case Type::poison:
+      return "nothing";
+    case Type::boolean:
+      return "a truth value";
+    case Type::integer:
+      return "an integer";
+    case Type::number:
+      return with_article(value.dimension);
+    case Type::string:
+      return "a string";
+    case Type::enumeration:
+      return value.heap ? fmt::format("`.{}`", printable(value.text())) : "a choice";
+    case Type::color:
+      return "a color";
     case Type::vec2:
-    case Type::vec3: return described_vector(value);
+    case Type::vec3:
+      return described_vector(value);
     case Type::list:
-      return value.known ? fmt::format("a list of {}", element_count(value)) : std::string("a list");
-    case Type::transform: return "a transform";
-    case Type::curve: return "a curve";
-    case Type::texture: return "a texture";
-    case Type::material: return "a material";
-    case Type::proto: return "a proto";
-    case Type::filter: return "a pixel filter";
+      return value.known ? fmt::format("a list of {}", element_count(value))
+                         : std::string("a list");
+    case Type::transform:
+      return "a transform";
+    case Type::curve:
+      return "a curve";
+    case Type::texture:
+      return "a texture";
+    case Type::material:
+      return "a material";
+    case Type::proto:
+      return "a proto";
+    case Type::filter:
+      return "a pixel filter";
   }
   return "nothing";
 }

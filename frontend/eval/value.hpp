@@ -1,8 +1,8 @@
 // What an expression evaluates to. A value is one cache line, copied freely: scalars, vectors and
 // colours inside, everything longer shared on the heap and immutable.
-// A poison value stands for a mistake already reported: it silences everything that uses it. A value
-// that is not `known` has a type and no payload: bodies are checked with such values once, where
-// they are written, before they are expanded.
+// A poison value stands for a mistake already reported: it silences everything that uses it. A
+// value that is not `known` has a type and no payload: bodies are checked with such values once,
+// where they are written, before they are expanded.
 #pragma once
 
 #include <array>
@@ -81,7 +81,8 @@ struct Heap {
 [[nodiscard]] Value make_int(std::int64_t value);
 [[nodiscard]] Value make_number(double value, Dimension dimension = {});
 // `n` beyond the size is ignored.
-[[nodiscard]] Value make_vector(std::size_t size, const std::array<double, 3>& n, Dimension dimension = {});
+[[nodiscard]] Value make_vector(std::size_t size, const std::array<double, 3>& n,
+                                Dimension dimension = {});
 [[nodiscard]] Value make_color(double r, double g, double b);
 [[nodiscard]] Value make_string(std::string text, FileId file);
 [[nodiscard]] Value make_enumeration(std::string_view name);

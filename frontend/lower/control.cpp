@@ -89,7 +89,8 @@ void Lowering::assertion(NodeRef node, Scope& scope) {
   // The message is a bare string token; a string literal as the condition is a type error above.
   const NodeRef message = node.find_child(SyntaxKind::string);
   session_.error(DiagnosticKind::assertion_failed, test.span(),
-                 message ? printable(decoded_string(message.text()), 400) : std::string("the assertion does not hold"));
+                 message ? printable(decoded_string(message.text()), 400)
+                         : std::string("the assertion does not hold"));
 }
 
 void Lowering::macro_call(NodeRef node, Scope& scope, const Surroundings& around) {
@@ -115,7 +116,8 @@ void Lowering::macro_call(NodeRef node, Scope& scope, const Surroundings& around
   const NodeRef declaration = found.binding->node;
   if (found.binding->kind != BindingKind::macro) {
     session_.error(Diagnostic(DiagnosticKind::name_without_value, name.span(),
-                              fmt::format("`{}` is a {}, not a macro", printable(name.text()), text_of(found.binding->kind)))
+                              fmt::format("`{}` is a {}, not a macro", printable(name.text()),
+                                          text_of(found.binding->kind)))
                        .note("declared here", found.binding->span));
     return;
   }
@@ -125,7 +127,8 @@ void Lowering::macro_call(NodeRef node, Scope& scope, const Surroundings& around
   }
   const ast::Item parts = ast::item_of(declaration);
   Scope inside(found.scope);
-  const bool sound = evaluator_.bind_arguments(parts.parameters, arguments, node, name.text(), scope, inside);
+  const bool sound =
+      evaluator_.bind_arguments(parts.parameters, arguments, node, name.text(), scope, inside);
   if (!sound || session_.checking_only() || !parts.block) return;
   const Evaluator::Activating activating(evaluator_, declaration);
   const Session::Expanding expanding(session_, name.text(), node.span());

@@ -24,19 +24,25 @@ bool hides_built_in(std::string_view name) {
 void Lowering::declare(Scope& scope, NodeRef name, BindingKind kind, Value value, NodeRef node) {
   const std::string_view word = name.text();
   if (const Binding* first = scope.find_here(word)) {
-    session_.error(Diagnostic(DiagnosticKind::duplicate_name, name.span(), fmt::format("`{}` is declared twice", printable(word)))
+    session_.error(Diagnostic(DiagnosticKind::duplicate_name, name.span(),
+                              fmt::format("`{}` is declared twice", printable(word)))
                        .note("first declared here", first->span));
     return;
   }
   if (!running()) {
-    const Binding* outer = scope.parent() != nullptr ? scope.parent()->find(word, name.span()).binding : nullptr;
-    Diagnostic diagnostic(DiagnosticKind::shadowed_name, name.span(),
-                          outer != nullptr ? fmt::format("`{}` hides an outer {}", printable(word), text_of(outer->kind))
-                                           : fmt::format("`{}` hides a built-in name", printable(word)));
-    if (outer != nullptr) diagnostic.notes.push_back({"the outer one is declared here", outer->span});
+    const Binding* outer =
+        scope.parent() != nullptr ? scope.parent()->find(word, name.span()).binding : nullptr;
+    Diagnostic diagnostic(
+        DiagnosticKind::shadowed_name, name.span(),
+        outer != nullptr
+            ? fmt::format("`{}` hides an outer {}", printable(word), text_of(outer->kind))
+            : fmt::format("`{}` hides a built-in name", printable(word)));
+    if (outer != nullptr)
+      diagnostic.notes.push_back({"the outer one is declared here", outer->span});
     if (outer != nullptr || hides_built_in(word)) session_.lint(std::move(diagnostic));
   }
-  Binding binding{.name = word, .span = name.span(), .kind = kind, .value = std::move(value), .node = node};
+  Binding binding{
+      .name = word, .span = name.span(), .kind = kind, .value = std::move(value), .node = node};
   binding.lint_unused = !session_.is_allowed(DiagnosticKind::unused_declaration);
   scope.add(std::move(binding));
 }
@@ -45,8 +51,9 @@ void Lowering::close(Scope& scope) {
   if (running()) return;
   for (const Binding& binding : scope.bindings()) {
     if (binding.used || !binding.lint_unused) continue;
-    unused_.emplace_back(DiagnosticKind::unused_declaration, binding.span,
-                         fmt::format("the {} `{}` is never used", text_of(binding.kind), printable(binding.name)));
+    unused_.emplace_back(
+        DiagnosticKind::unused_declaration, binding.span,
+        fmt::format("the {} `{}` is never used", text_of(binding.kind), printable(binding.name)));
   }
 }
 
@@ -72,9 +79,11 @@ void Lowering::declare_let(NodeRef node, Scope& scope) {
 
 std::optional<Value> Lowering::param_setting(std::string_view name, const TypeRef& type) {
   const auto& settings = session_.options.params;
-  const auto setting = std::find_if(settings.rbegin(), settings.rend(), [&](const ParamSetting& s) { return s.name == name; });
+  const auto setting = std::find_if(settings.rbegin(), settings.rend(),
+                                    [&](const ParamSetting& s) { return s.name == name; });
   if (setting == settings.rend()) return std::nullopt;
-  if (type.type == Type::string && type.list_depth == 0) return make_string(setting->value, main_file_);
+  if (type.type == Type::string && type.list_depth == 0)
+    return make_string(setting->value, main_file_);
   const NodeRef expression = modules_->parse_setting(*setting);
   if (!expression) return Value{};
   Scope nothing;
@@ -89,14 +98,17 @@ void Lowering::declare_param(NodeRef node, Scope& scope) {
   const auto type = read_type(session_, parts.type);
   Value value = evaluator_.evaluate(parts.expression, scope);
   if (parts.expression && type) {
-    value = coerce(session_, value, *type, {.subject = parts.name.text(), .function = {}, .node = parts.expression});
-    value = evaluator_.in_range(value, parts.range, scope, parts.name.text(), parts.expression.span());
+    value = coerce(session_, value, *type,
+                   {.subject = parts.name.text(), .function = {}, .node = parts.expression});
+    value =
+        evaluator_.in_range(value, parts.range, scope, parts.name.text(), parts.expression.span());
   }
   const bool settable = main_file_ == node.span().file && !session_.checking_only();
   if (type && settable) {
     if (auto given = param_setting(parts.name.text(), *type)) {
       const NodeRef written = modules_->setting_expression(parts.name.text());
-      value = evaluator_.in_range(*given, parts.range, scope, parts.name.text(), written ? written.span() : parts.name.span());
+      value = evaluator_.in_range(*given, parts.range, scope, parts.name.text(),
+                                  written ? written.span() : parts.name.span());
     }
   }
   declare(scope, parts.name, BindingKind::param, std::move(value), node);
@@ -109,8 +121,10 @@ void Lowering::report_unknown_settings(Scope& scope) {
   }
   for (const ParamSetting& setting : session_.options.params) {
     if (std::find(names.begin(), names.end(), setting.name) != names.end()) continue;
-    session_.report(unknown_word(DiagnosticKind::unknown_param, {}, fmt::format("the scene has no param `{}`", printable(setting.name)),
-                                 setting.name, names, "params"));
+    session_.report(
+        unknown_word(DiagnosticKind::unknown_param, {},
+                     fmt::format("the scene has no param `{}`", printable(setting.name)),
+                     setting.name, names, "params"));
   }
 }
 
@@ -137,13 +151,15 @@ void Lowering::declare_proto(NodeRef node, Scope& scope, const Surroundings& aro
   ir::Proto proto;
   if (parts.block) {
     Scope inside(&scope);
-    items(parts.block, inside, {.transform = {}, .material = {}, .items = &proto.items, .in_proto = true});
+    items(parts.block, inside,
+          {.transform = {}, .material = {}, .items = &proto.items, .in_proto = true});
     close(inside);
   }
   Value value = make_unknown(Type::proto);
   if (!session_.checking_only()) {
     const ir::NameId name = session_.builder.add_name(parts.name.text());
-    value = make_proto(session_.builder.add_proto(std::move(proto), {name, session_.add_origin(node.span())}));
+    value = make_proto(
+        session_.builder.add_proto(std::move(proto), {name, session_.add_origin(node.span())}));
   }
   declare(scope, parts.name, BindingKind::proto, std::move(value), node);
 }

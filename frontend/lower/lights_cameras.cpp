@@ -16,18 +16,21 @@ using grammar::SyntaxKind;
 // ---- lights
 
 template <class T>
-void Lowering::read_light(const ast::Item& parts, NodeRef node, Scope& scope, const Surroundings& around) {
+void Lowering::read_light(const ast::Item& parts, NodeRef node, Scope& scope,
+                          const Surroundings& around) {
   T light{};
   bool sound = false;
   {
     const FieldsLease lease(*this);
     Scope inside(&scope);
     collect(parts.block, inside, *lease.fields);
-    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name, parts.kind.span());
+    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name,
+                         parts.kind.span());
     checker.read(light);
     checker.template finish<T>();
     sound = checker.sound();
-    if (sound && !session_.checking_only()) check_light(session_, light, checker, parts.kind.span());
+    if (sound && !session_.checking_only())
+      check_light(session_, light, checker, parts.kind.span());
     close(inside);
   }
   if (session_.checking_only()) return;
@@ -38,7 +41,8 @@ void Lowering::read_light(const ast::Item& parts, NodeRef node, Scope& scope, co
   ir::LightKind kind = std::move(light);
   if (!sound || !bake(session_, around.transform, kind, head)) return;
   const ir::NameId name = parts.name ? session_.builder.add_name(parts.name.text()) : ir::NameId{};
-  static_cast<void>(session_.builder.add_light({std::move(kind)}, {name, session_.add_origin(node.span())}));
+  static_cast<void>(
+      session_.builder.add_light({std::move(kind)}, {name, session_.add_origin(node.span())}));
 }
 
 void Lowering::light(NodeRef node, Scope& scope, const Surroundings& around) {
@@ -48,7 +52,8 @@ void Lowering::light(NodeRef node, Scope& scope, const Surroundings& around) {
   }
   const ast::Item parts = ast::item_of(node);
   if (!parts.kind || !parts.block) return;
-  const bool known = KindDispatch<ir::LightKind>::call(parts.kind.text(), [&]<class T>() { read_light<T>(parts, node, scope, around); });
+  const bool known = KindDispatch<ir::LightKind>::call(
+      parts.kind.text(), [&]<class T>() { read_light<T>(parts, node, scope, around); });
   if (known) return;
   notes_.light = true;
   if (!notes_.first_placed.valid()) notes_.first_placed = parts.kind.span();
@@ -58,18 +63,21 @@ void Lowering::light(NodeRef node, Scope& scope, const Surroundings& around) {
 // ---- cameras
 
 template <class T>
-void Lowering::read_camera(const ast::Item& parts, NodeRef node, Scope& scope, const Surroundings& around) {
+void Lowering::read_camera(const ast::Item& parts, NodeRef node, Scope& scope,
+                           const Surroundings& around) {
   T camera{};
   bool sound = false;
   {
     const FieldsLease lease(*this);
     Scope inside(&scope);
     collect(parts.block, inside, *lease.fields);
-    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name, parts.kind.span());
+    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name,
+                         parts.kind.span());
     checker.read(camera);
     checker.template finish<T>();
     sound = checker.sound();
-    if (sound && !session_.checking_only()) check_camera(session_, camera, checker, parts.kind.span());
+    if (sound && !session_.checking_only())
+      check_camera(session_, camera, checker, parts.kind.span());
     close(inside);
   }
   if (session_.checking_only()) return;
@@ -78,11 +86,15 @@ void Lowering::read_camera(const ast::Item& parts, NodeRef node, Scope& scope, c
   const ir::NameId name = session_.builder.add_name(parts.name.text());
   for (const ir::Declared& other : session_.builder.scene().camera_names) {
     if (other.name != name) continue;
-    session_.error(Diagnostic(DiagnosticKind::duplicate_camera, parts.name.span(), fmt::format("there are two cameras `{}`", printable(parts.name.text())))
-                       .note("the first is declared here", session_.builder.scene().origins[other.origin].span));
+    session_.error(
+        Diagnostic(DiagnosticKind::duplicate_camera, parts.name.span(),
+                   fmt::format("there are two cameras `{}`", printable(parts.name.text())))
+            .note("the first is declared here",
+                  session_.builder.scene().origins[other.origin].span));
     return;
   }
-  static_cast<void>(session_.builder.add_camera({std::move(kind)}, {name, session_.add_origin(node.span())}));
+  static_cast<void>(
+      session_.builder.add_camera({std::move(kind)}, {name, session_.add_origin(node.span())}));
 }
 
 void Lowering::camera(NodeRef node, Scope& scope, const Surroundings& around) {
@@ -99,8 +111,10 @@ void Lowering::camera(NodeRef node, Scope& scope, const Surroundings& around) {
     }
   }
   if (!parts.name || !parts.kind || !parts.block) return;
-  const bool known = KindDispatch<ir::CameraKind>::call(parts.kind.text(), [&]<class T>() { read_camera<T>(parts, node, scope, around); });
-  if (!known) report_unknown_kind(session_, parts.kind, "camera", KindDispatch<ir::CameraKind>::names());
+  const bool known = KindDispatch<ir::CameraKind>::call(
+      parts.kind.text(), [&]<class T>() { read_camera<T>(parts, node, scope, around); });
+  if (!known)
+    report_unknown_kind(session_, parts.kind, "camera", KindDispatch<ir::CameraKind>::names());
 }
 
 // ---- render
@@ -112,13 +126,16 @@ void Lowering::render_block(NodeRef node, Scope& scope) {
   const Span head = keyword ? keyword.span() : node.span();
   const bool again = notes_.render.valid();
   if (again) {
-    session_.error(Diagnostic(DiagnosticKind::duplicate_render, head, "there are two `render` blocks").note("the first is here", notes_.render));
+    session_.error(
+        Diagnostic(DiagnosticKind::duplicate_render, head, "there are two `render` blocks")
+            .note("the first is here", notes_.render));
   }
   const FieldsLease lease(*this);
   Scope inside(&scope);
   collect(block, inside, *lease.fields);
   ir::RenderSettings settings;
-  BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<ir::RenderSettings>::name, head);
+  BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields,
+                       ir::Schema<ir::RenderSettings>::name, head);
   checker.read(settings);
   checker.finish<ir::RenderSettings>();
   close(inside);
@@ -126,7 +143,8 @@ void Lowering::render_block(NodeRef node, Scope& scope) {
   if (checker.sound()) check_render(session_, settings, checker);
   const auto key = [](auto member) { return key_name<ir::RenderSettings>(member); };
   settings.background_written = checker.written(key(&ir::RenderSettings::background)) != nullptr;
-  if (const Field* field = checker.written(key(&ir::RenderSettings::camera))) notes_.camera_key = field->expression;
+  if (const Field* field = checker.written(key(&ir::RenderSettings::camera)))
+    notes_.camera_key = field->expression;
   notes_.render = head;
   render_ = std::move(settings);
   render_origin_ = session_.add_origin(node.span());

@@ -25,12 +25,12 @@ class Modules;
 
 // What the walk has met, for the rules between entities.
 struct SceneNotes {
-  Span first_placed;        // shape or light; invalid: none
-  Span first_camera;        // also one that has mistakes
+  Span first_placed;  // shape or light; invalid: none
+  Span first_camera;  // also one that has mistakes
   Span second_camera;
-  Span render;              // kind of the `render` block; invalid: none
+  Span render;                  // kind of the `render` block; invalid: none
   grammar::NodeRef camera_key;  // expression of `camera` in it
-  Span first_bare;          // shape without a material
+  Span first_bare;              // shape without a material
   std::size_t bare_count = 0;
   bool light = false;
   bool emission = false;
@@ -91,8 +91,10 @@ class Lowering final : public FieldCollector {
   template <class T>
   void read_material(const ast::Item& parts, NodeRef node, Scope& scope, Value& value);
   // What a shape is made of: its own material, its group's, or the default one.
-  [[nodiscard]] ir::MaterialId material_for(ir::MaterialId own, bool written, const Surroundings& around, Span span);
-  [[nodiscard]] ir::TransformId transform_for(const std::optional<ir::Transform>& own, const Surroundings& around, Span span);
+  [[nodiscard]] ir::MaterialId material_for(ir::MaterialId own, bool written,
+                                            const Surroundings& around, Span span);
+  [[nodiscard]] ir::TransformId transform_for(const std::optional<ir::Transform>& own,
+                                              const Surroundings& around, Span span);
   void misplaced(NodeRef node, std::string_view where);
 
   // control

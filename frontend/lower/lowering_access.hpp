@@ -32,6 +32,7 @@ struct KindDispatch<List<Ts...>> {
   static std::vector<std::string_view> names() { return {ir::Schema<Ts>::name...}; }
 };
 
-void report_unknown_kind(Session& session, grammar::NodeRef kind, std::string_view family, std::span<const std::string_view> legal);
+void report_unknown_kind(Session& session, grammar::NodeRef kind, std::string_view family,
+                         std::span<const std::string_view> legal);
 
 }  // namespace scenec::frontend

@@ -21,7 +21,9 @@ constexpr std::string_view library_prefix = "std:";
 std::unique_ptr<grammar::SyntaxTree> Modules::read(const std::string& path, NodeRef use) {
   auto content = session_.files.read(path, max_include_bytes);
   if (!content) {
-    session_.error(DiagnosticKind::file_unreadable, use.span(), fmt::format("cannot read {}: {}", quoted_string(path), text_of(content.error())));
+    session_.error(
+        DiagnosticKind::file_unreadable, use.span(),
+        fmt::format("cannot read {}: {}", quoted_string(path), text_of(content.error())));
     return nullptr;
   }
   const std::string_view text = content.value().bytes;
@@ -35,7 +37,9 @@ std::shared_ptr<Scope> Modules::load(const std::string& written, NodeRef use) {
   const auto [place, added] = modules_.try_emplace(path);
   Module& module = place->second;
   if (!added) {
-    if (module.loading) session_.error(DiagnosticKind::recursive_call, use.span(), fmt::format("{} includes itself", quoted_string(path)));
+    if (module.loading)
+      session_.error(DiagnosticKind::recursive_call, use.span(),
+                     fmt::format("{} includes itself", quoted_string(path)));
     return module.loading ? nullptr : module.scope;
   }
   if (open_.size() >= max_include_depth || modules_.size() > max_include_files) {
@@ -62,15 +66,18 @@ std::shared_ptr<Scope> Modules::load(const std::string& written, NodeRef use) {
 NodeRef Modules::parse_setting(const ParamSetting& setting) {
   auto& tree = settings_[setting.name];
   const std::size_t before = session_.sink.error_count();
-  const FileId file = session_.sources.add("-D " + printable(setting.name), fmt::format("sdl 1;\nlet value = {};\n", setting.value));
-  tree = std::make_unique<grammar::SyntaxTree>(grammar::parse_sdl(file, session_.sources.text(file), session_.sink));
+  const FileId file = session_.sources.add("-D " + printable(setting.name),
+                                           fmt::format("sdl 1;\nlet value = {};\n", setting.value));
+  tree = std::make_unique<grammar::SyntaxTree>(
+      grammar::parse_sdl(file, session_.sources.text(file), session_.sink));
   const NodeRef expression = setting_expression(setting.name);
   if (session_.sink.error_count() > before) return {};
   // More than one expression (`-D n="1; sphere {}"`) leaves more than one item.
   std::size_t items = 0;
   for (NodeRef child : tree->root().children()) items += child.is(SyntaxKind::edition) ? 0u : 1u;
   if (items == 1 && expression) return expression;
-  session_.error(DiagnosticKind::param_setting, tree->root().span(), fmt::format("the value of `{}` is not one expression", printable(setting.name)));
+  session_.error(DiagnosticKind::param_setting, tree->root().span(),
+                 fmt::format("the value of `{}` is not one expression", printable(setting.name)));
   return {};
 }
 

@@ -13,10 +13,14 @@ namespace scenec::frontend {
 namespace {
 
 void unsuitable(Session& session, Span span, std::string_view subject, std::string_view needs) {
-  session.error(DiagnosticKind::unsuitable_transform, span, fmt::format("{} cannot take this transform of its group; needs {}", subject, needs));
+  session.error(
+      DiagnosticKind::unsuitable_transform, span,
+      fmt::format("{} cannot take this transform of its group; needs {}", subject, needs));
 }
 
-void normalise_zero(double& value) { value += 0.0; }
+void normalise_zero(double& value) {
+  value += 0.0;
+}
 
 ir::Point3 moved(const ir::Transform& transform, const ir::Point3& point) {
   ir::Point3 result = ir::apply(transform, point);
@@ -87,11 +91,14 @@ Problem bake_kind(const ir::Transform& t, ir::EnvironmentLight& light) {
 
 void scale_lens(double, ir::Pinhole&) {}
 void scale_lens(double, ir::Panorama&) {}
-void scale_lens(double scale, ir::Orthographic& camera) { camera.height.value *= scale; }
+void scale_lens(double scale, ir::Orthographic& camera) {
+  camera.height.value *= scale;
+}
 void scale_lens(double scale, ir::ThinLens& camera) {
   camera.focus.distance.value *= scale;
   if (camera.aperture) camera.aperture->value *= scale;
-  if (camera.f_stop) *camera.f_stop /= scale;  // the lens grows with the scene, the angle of view does not
+  if (camera.f_stop)
+    *camera.f_stop /= scale;  // the lens grows with the scene, the angle of view does not
 }
 
 }  // namespace

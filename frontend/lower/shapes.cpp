@@ -24,7 +24,8 @@ std::vector<std::string_view> shape_names() {
 
 }  // namespace
 
-ir::TransformId Lowering::transform_for(const std::optional<ir::Transform>& own, const Surroundings& around, Span span) {
+ir::TransformId Lowering::transform_for(const std::optional<ir::Transform>& own,
+                                        const Surroundings& around, Span span) {
   if (!own) return session_.builder.add_transform(around.transform);
   if (around.transform.is_identity()) return session_.builder.add_transform(*own);
   ir::Transform product = ir::multiply(around.transform, *own);
@@ -33,7 +34,8 @@ ir::TransformId Lowering::transform_for(const std::optional<ir::Transform>& own,
   return session_.builder.add_transform(product);
 }
 
-ir::MaterialId Lowering::material_for(ir::MaterialId own, bool written, const Surroundings& around, Span span) {
+ir::MaterialId Lowering::material_for(ir::MaterialId own, bool written, const Surroundings& around,
+                                      Span span) {
   if (own.valid()) return own;
   if (around.material.valid()) return around.material;
   if (!written && !session_.is_allowed(DiagnosticKind::default_material)) {
@@ -47,7 +49,8 @@ ir::MaterialId Lowering::material_for(ir::MaterialId own, bool written, const Su
 }
 
 template <class T>
-void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope, const Surroundings& around) {
+void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope,
+                     const Surroundings& around) {
   const Span head = parts.kind ? parts.kind.span() : parts.block.span();
   T shape{};
   ir::Placing placing;
@@ -56,7 +59,8 @@ void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope, const S
     const FieldsLease lease(*this);
     Scope inside(&scope);
     collect(parts.block, inside, *lease.fields);
-    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name, head);
+    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name,
+                         head);
     checker.read(shape);
     checker.read(placing);
     checker.template finish<T, ir::Placing>();
@@ -69,7 +73,8 @@ void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope, const S
   ir::Item item;
   item.transform = transform_for(placing.transform, around, head);
   constexpr bool keeps_materials = std::same_as<T, ir::Instance>;
-  item.material = keeps_materials ? placing.material : material_for(placing.material, material_written, around, head);
+  item.material = keeps_materials ? placing.material
+                                  : material_for(placing.material, material_written, around, head);
   item.shape = session_.builder.add_shape(std::move(shape));
   item.origin = session_.add_origin(node.span());
   if (parts.name) item.name = session_.builder.add_name(parts.name.text());
@@ -83,7 +88,8 @@ void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope, const S
 void Lowering::shape(NodeRef node, Scope& scope, const Surroundings& around) {
   const ast::Item parts = ast::item_of(node);
   if (!parts.kind || !parts.block) return;
-  const bool known = KindDispatch<ir::ShapeTypes>::call(parts.kind.text(), [&]<class T>() { place<T>(parts, node, scope, around); });
+  const bool known = KindDispatch<ir::ShapeTypes>::call(
+      parts.kind.text(), [&]<class T>() { place<T>(parts, node, scope, around); });
   if (!known) report_unknown_kind(session_, parts.kind, "shape", shape_names());
 }
 
@@ -108,7 +114,11 @@ void Lowering::group(NodeRef node, Scope& scope, const Surroundings& around) {
     for (NodeRef child : parts.block.children()) {
       if (!child.is(SyntaxKind::field)) continue;
       const ast::Field field = ast::field_of(child);
-      if (field.name) lease.fields->add(session_, {.name = field.name.text(), .name_node = field.name, .expression = field.expression, .block = {}});
+      if (field.name)
+        lease.fields->add(session_, {.name = field.name.text(),
+                                     .name_node = field.name,
+                                     .expression = field.expression,
+                                     .block = {}});
     }
     BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, "group", head);
     checker.read(placing);
@@ -134,7 +144,8 @@ void Lowering::read_material(const ast::Item& parts, NodeRef node, Scope& scope,
     const FieldsLease lease(*this);
     Scope inside(&scope);
     collect(parts.block, inside, *lease.fields);
-    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name, parts.kind.span());
+    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name,
+                         parts.kind.span());
     checker.read(kind);
     checker.read(common);
     checker.template finish<T, ir::MaterialCommon>();
@@ -143,7 +154,8 @@ void Lowering::read_material(const ast::Item& parts, NodeRef node, Scope& scope,
   if (session_.checking_only()) return;
   if (common.emission.texture.valid() || common.emission.value != ir::black) notes_.emission = true;
   const ir::NameId name = session_.builder.add_name(parts.name.text());
-  value = make_material(session_.builder.add_material({std::move(kind), std::move(common)}, {name, session_.add_origin(node.span())}));
+  value = make_material(session_.builder.add_material({std::move(kind), std::move(common)},
+                                                      {name, session_.add_origin(node.span())}));
 }
 
 void Lowering::declare_material(NodeRef node, Scope& scope) {
@@ -151,8 +163,11 @@ void Lowering::declare_material(NodeRef node, Scope& scope) {
   if (!parts.name) return;
   Value value = make_unknown(Type::material);
   if (parts.kind && parts.block) {
-    const bool known = KindDispatch<ir::MaterialKind>::call(parts.kind.text(), [&]<class T>() { read_material<T>(parts, node, scope, value); });
-    if (!known) report_unknown_kind(session_, parts.kind, "material", KindDispatch<ir::MaterialKind>::names());
+    const bool known = KindDispatch<ir::MaterialKind>::call(
+        parts.kind.text(), [&]<class T>() { read_material<T>(parts, node, scope, value); });
+    if (!known)
+      report_unknown_kind(session_, parts.kind, "material",
+                          KindDispatch<ir::MaterialKind>::names());
   }
   declare(scope, parts.name, BindingKind::material, std::move(value), node);
 }

@@ -1,4 +1,5 @@
-// Compiles small scenes from memory and evaluates single expressions, for the tests of the front end.
+// Compiles small scenes from memory and evaluates single expressions, for the tests of the front
+// end.
 #pragma once
 
 #include <algorithm>
@@ -50,18 +51,23 @@ struct Compiler {
     result.scene = compile("scene.sdl", options, files, sources, sink);
     result.codes = codes_of(sink);
     result.messages = messages_of(sink);
-    for (const Diagnostic& diagnostic : sink.sorted()) result.rendered += render_terminal(diagnostic, sources, {});
+    for (const Diagnostic& diagnostic : sink.sorted())
+      result.rendered += render_terminal(diagnostic, sources, {});
     return result;
   }
 };
 
-inline Compiled compiled(const std::string& text) { return Compiler{}(text); }
+inline Compiled compiled(const std::string& text) {
+  return Compiler{}(text);
+}
 
-inline const std::string camera = "camera main: pinhole { eye = [0, 1, 5]; aim = [0, 1, 0]; fov = 40deg; }\n";
+inline const std::string camera =
+    "camera main: pinhole { eye = [0, 1, 5]; aim = [0, 1, 0]; fov = 40deg; }\n";
 inline const std::string lit = "light: point { position = [0, 5, 0]; power = 100W; }\n";
 // A scene around some items that has everything else.
 inline std::string scene_with(const std::string& items) {
-  return "sdl 1;\nmaterial grey: diffuse { color = gray(0.5); }\nsphere { material = grey; }\n" + items + "\n" + camera + lit;
+  return "sdl 1;\nmaterial grey: diffuse { color = gray(0.5); }\nsphere { material = grey; }\n" +
+         items + "\n" + camera + lit;
 }
 
 struct Evaluated {

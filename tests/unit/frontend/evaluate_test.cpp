@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-
 #include "frontend/eval/color.hpp"
 #include "frontend/eval/math.hpp"
 #include "tests/unit/frontend/compile_fixture.hpp"
@@ -84,7 +83,8 @@ TEST(Evaluate, numbers_and_dimensions) {
     EXPECT_EQ(result.codes, "") << c.expression << ": " << result.messages;
     ASSERT_TRUE(result.value.is_number()) << c.expression;
     EXPECT_DOUBLE_EQ(result.value.real(), c.value) << c.expression;
-    EXPECT_EQ(result.value.dimension, c.dimension) << c.expression << ": " << name_of(result.value.dimension);
+    EXPECT_EQ(result.value.dimension, c.dimension)
+        << c.expression << ": " << name_of(result.value.dimension);
     EXPECT_EQ(result.value.is(Type::integer), c.integer) << c.expression;
   }
 }
