@@ -93,7 +93,8 @@ std::variant<std::vector<std::string>, UsageError> operands_of(
 std::optional<UsageError> find_operand_problem(const Options& options) {
   const VerbInfo& verb = info_of(options.verb);
   const bool needs_one = !verb.operands.starts_with('[') && !options.list;
-  if (options.operands.size() > 1) {
+  const bool takes_many = verb.operands.ends_with("...");
+  if (options.operands.size() > 1 && !takes_many) {
     return UsageError{fmt::format("`{}` takes one {} at a time; `{}` is a second one", verb.name,
                                   verb.operands == "SCENE" ? "scene" : "name",
                                   printable(options.operands[1]))};
@@ -101,6 +102,7 @@ std::optional<UsageError> find_operand_problem(const Options& options) {
   if (needs_one && options.operands.empty()) {
     return UsageError{fmt::format("`{}` needs {}", verb.name,
                                   verb.operands == "SCENE" ? "the name of a scene file"
+                                  : takes_many             ? "the name of a file, or `-`"
                                                            : "the code or name of a diagnostic")};
   }
   if (verb.operands == "SCENE" && options.operands[0] == "-") {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <istream>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -17,6 +18,7 @@ struct Environment {
   // Value of an environment variable; nullopt when it is not set.
   std::function<std::optional<std::string>(std::string_view)> variable;
   bool handle_signals = false;  // only the real process takes SIGINT and SIGTERM
+  std::istream* in = nullptr;   // standard input; null: empty
 };
 
 enum class ColorChoice { automatic, always, never };

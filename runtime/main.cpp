@@ -21,6 +21,7 @@ int main(int argument_count, char** arguments) {
         return value == nullptr ? std::nullopt : std::optional<std::string>(value);
       },
       .handle_signals = true,
+      .in = &std::cin,
   };
   const std::vector<std::string> words(arguments + (argument_count > 0 ? 1 : 0),
                                        arguments + argument_count);

@@ -16,7 +16,7 @@ using Problem = std::optional<std::string>;
 
 constexpr VerbSet render_only{Verb::render};
 constexpr VerbSet compiling{Verb::render, Verb::check, Verb::dump};
-constexpr VerbSet reading{Verb::render, Verb::check, Verb::dump, Verb::convert};
+constexpr VerbSet reading{Verb::render, Verb::check, Verb::dump, Verb::convert, Verb::fmt};
 constexpr VerbSet writing{Verb::render, Verb::dump, Verb::convert};
 
 constexpr std::int64_t largest_sample_count = 1048576;
@@ -152,6 +152,19 @@ constexpr std::array option_table{
                 constexpr std::array<Text, 3> names{"auto", "always", "never"};
                 return store_choice<ColorChoice>(o.color, v, names);
               }},
+    OptionRow{"--check", "", "name the files that are not formatted, change none",
+              VerbSet{Verb::fmt},
+              [](Options& o, Text) -> Problem {
+                o.check_layout = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
+    OptionRow{"--diff", "", "show what would change, change nothing", VerbSet{Verb::fmt},
+              [](Options& o, Text) -> Problem {
+                o.diff = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
     OptionRow{"--list", "", "one line for every diagnostic", VerbSet{Verb::explain},
               [](Options& o, Text) -> Problem {
                 o.list = true;

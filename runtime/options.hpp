@@ -49,6 +49,8 @@ struct Options {
   StatsForm stats = StatsForm::none;
   std::string stats_file;  // of StatsForm::json
   DumpStage stage = DumpStage::ir;
+  bool check_layout = false;  // fmt: name the files that would change, change none
+  bool diff = false;
   bool list = false;
   bool markdown = false;
 };
