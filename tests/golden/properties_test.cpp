@@ -83,4 +83,14 @@ TEST(Properties, TheDumpedIrCompilesToItself) {
   EXPECT_GT(compiled, 0);
 }
 
+TEST(Properties, TheSceneInTheReadmeCompiles) {
+  const std::string readme =
+      scenec::test::read_text(scenec::test::source_directory() / "README.md");
+  const std::size_t begin = readme.find("sdl 1;");
+  ASSERT_NE(begin, std::string::npos);
+  scenec::test::OverlayFileSystem files("readme.sdl",
+                                        readme.substr(begin, readme.find("```", begin) - begin));
+  EXPECT_TRUE(compile(files, "readme.sdl"));
+}
+
 }  // namespace
