@@ -179,7 +179,8 @@ class Layout {
       const bool begins_line = behind_line || (comment.is_line && comment.newlines > 0);
       if (begins_line) {
         new_line(continued());
-      } else if (k > 0 || (before != nullptr && !is_tight_behind(before->spacing))) {
+      } else if (k > 0 || (before != nullptr &&
+                           (comment.is_line || !is_tight_behind(before->spacing)))) {
         write_blank();
       }
       write_comment(comment, begins_line);
