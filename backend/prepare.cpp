@@ -178,6 +178,7 @@ PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
     for (Diagnostic& diagnostic : report.diagnostics) sink.report(std::move(diagnostic));
   }
   check_items(scene, sink);
+  check_supported(scene, sink);
   return sink.error_count() == errors_before ? std::move(prepared) : nullptr;
 }
 

@@ -155,8 +155,17 @@ void Materials::check_required(const MaterialData& material) {
   }
 }
 
-std::string Materials::name_of(std::size_t index) const {
+namespace {
+
+std::string name_of_material(std::size_t index) {
   return fmt::format("m{}", index);
+}
+
+}  // namespace
+
+std::string Materials::use(std::size_t index) {
+  used_.insert(index);
+  return name_of_material(index);
 }
 
 bool Materials::is_emissive(std::size_t index) const {
@@ -207,11 +216,16 @@ std::string Materials::add_emitter(const Text& radiance, Span origin) {
 }
 
 void Materials::write(Text& out, bool physical) const {
-  const auto put_all = [&](const MaterialData& material, const std::string& name) {
-    for (const Item& item : items_of(context_, material, name, physical)) write_item(out, item, 0);
+  const auto put_all = [&](const MaterialData& material, const std::string& name, bool used) {
+    std::vector<Item> items = items_of(context_, material, name, physical);
+    // Course files list materials that no object takes; the author cannot be told apart from the
+    // handout he copied, so it is no lint.
+    if (!used) items.back().head = Text("@allow(unused_declaration) ").put(items.back().head);
+    for (const Item& item : items) write_item(out, item, 0);
   };
-  for (std::size_t i = 0; i < materials_.size(); ++i) put_all(materials_[i], name_of(i));
-  for (const auto& [name, material] : variants_) put_all(material, name);
+  for (std::size_t i = 0; i < materials_.size(); ++i)
+    put_all(materials_[i], name_of_material(i), used_.contains(i));
+  for (const auto& [name, material] : variants_) put_all(material, name, true);
   for (const ExtraMaterial& extra : extras_) write_item(out, extra.item, 0);
 }
 

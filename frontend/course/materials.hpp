@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,8 @@ class Materials {
   void read_textures(const Entry& block);
   void read(const Entry& block);
   [[nodiscard]] std::size_t size() const { return materials_.size(); }
-  [[nodiscard]] std::string name_of(std::size_t index) const;
+  // The name of a material, which then counts as used.
+  [[nodiscard]] std::string use(std::size_t index);
   [[nodiscard]] bool is_emissive(std::size_t index) const;
   // The same material with another texture; its name.
   [[nodiscard]] std::string add_variant(std::size_t index, TextureUse texture);
@@ -73,6 +75,7 @@ class Materials {
 
   Context& context_;
   std::vector<MaterialData> materials_;
+  std::set<std::size_t> used_;
   std::vector<std::pair<std::string, MaterialData>> variants_;
   std::vector<ExtraMaterial> extras_;
   std::vector<std::optional<TextureUse>> textures_;

@@ -209,7 +209,7 @@ void Objects::add_material(Item& item, const Entry& entry, NeedsMaterial needs) 
     item.add("material", Text(variant_));
     variant_.clear();
   } else if (material_) {
-    item.add("material", Text(materials_.name_of(*material_), material_span_));
+    item.add("material", Text(materials_.use(*material_), material_span_));
   } else if (needs == NeedsMaterial::yes && !material_stated_) {
     context_.error(DiagnosticKind::course_no_material, entry.word_span,
                    fmt::format("`{}` stands before the first `MaterialIndex`", entry.word->text));

@@ -1,0 +1,70 @@
+// What the language promises and this renderer does not carry out yet: said, never ignored.
+#include <fmt/format.h>
+
+#include <string>
+
+#include "backend/prepare.hpp"
+
+namespace scenec::backend {
+
+namespace {
+
+Span span_of(const ir::Scene& scene, ir::OriginId origin) {
+  return origin.valid() ? scene.origins[origin].span : Span{};
+}
+
+void refuse(DiagnosticSink& sink, Span where, const std::string& what, const std::string& instead) {
+  sink.report(Diagnostic(DiagnosticKind::not_carried_out, where,
+                         what + " is not carried out by this version")
+                  .hint(instead));
+}
+
+void check_effects(const ir::Scene& scene, DiagnosticSink& sink) {
+  ir::visit_keys<ir::EffectSwitches>([&](const auto& key) {
+    if (scene.render.effects.*key.member == ir::EffectSwitch::automatic) return;
+    refuse(sink, span_of(scene, scene.render_origin), fmt::format("`{} = .off`", key.name),
+           "leave it at `.auto`: the picture shows every effect");
+  });
+}
+
+void check_layers(const ir::Scene& scene, DiagnosticSink& sink) {
+  for (ir::Aov aov : scene.render.aovs) {
+    if (aov != ir::Aov::trust) continue;
+    refuse(sink, span_of(scene, scene.render_origin), "the layer `.trust`",
+           "`.variance` shows how far a pixel is from settled");
+  }
+}
+
+void check_solvers(const ir::Scene& scene, const std::vector<ir::Item>& items,
+                   DiagnosticSink& sink) {
+  for (const ir::Item& item : items) {
+    const auto* id = std::get_if<Id<ir::Revolve>>(&item.shape);
+    if (id == nullptr) continue;
+    const ir::RevolveSolver solver = scene.shape(*id).solver;
+    if (solver == ir::RevolveSolver::certified) continue;
+    refuse(sink, span_of(scene, item.origin),
+           fmt::format("`solver = .{}`",
+                       ir::EnumNames<ir::RevolveSolver>::names[static_cast<std::size_t>(solver)]),
+           "`.certified`, the default, finds every hit");
+  }
+}
+
+void check_textures(const ir::Scene& scene, DiagnosticSink& sink) {
+  for (const ir::TextureNode& node : scene.textures) {
+    const auto* image = std::get_if<ir::ImageTexture>(&node.kind);
+    if (image == nullptr || image->filter != ir::TextureFilter::trilinear) continue;
+    refuse(sink, scene.assets[image->file].span, "`filter = .trilinear`", "use `.bilinear`");
+  }
+}
+
+}  // namespace
+
+void check_supported(const ir::Scene& scene, DiagnosticSink& sink) {
+  check_effects(scene, sink);
+  check_layers(scene, sink);
+  check_solvers(scene, scene.items, sink);
+  for (const ir::Proto& proto : scene.protos) check_solvers(scene, proto.items, sink);
+  check_textures(scene, sink);
+}
+
+}  // namespace scenec::backend
