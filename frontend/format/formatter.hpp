@@ -2,8 +2,9 @@
 //
 // Promises: the tokens keep their texts and their order, except that a broken list of elements gets
 // a comma behind the last one and a list on one line has none; every comment stays between the
-// tokens it stood between, except that `a // x` before `,` or `;` lets the mark go first. Formatting
-// a formatted text changes nothing. Time is linear in the text, stack space is constant.
+// tokens it stood between, except that a `,`, `;` or `:` on the line below `a // x` goes before the
+// comment. Formatting a formatted text changes nothing. Time is linear in the text, stack space is
+// constant.
 #pragma once
 
 #include <string>

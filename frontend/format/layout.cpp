@@ -50,7 +50,8 @@ class Layout {
         plan_.groups[group.parent].kind == GroupKind::branches) {
       return Mode::broken;
     }
-    const std::uint64_t end = column_ + width_of(plan_, measure_, group) + measure_.tail[group.last];
+    const std::uint64_t end =
+        column_ + width_of(plan_, measure_, group) + measure_.tail[group.last];
     if (may_be_flat && end <= line_width) return Mode::flat;
     return group.hugs ? Mode::hugging : Mode::broken;
   }
@@ -155,7 +156,8 @@ class Layout {
   void write_gap(std::uint32_t i) {
     const Token& token = plan_.tokens[i];
     const bool breaks = breaks_before(i);
-    if (token.brk == Break::closer && is_broken(token.group) && plan_.groups[token.group].takes_comma) {
+    if (token.brk == Break::closer && is_broken(token.group) &&
+        plan_.groups[token.group].takes_comma) {
       write(",", 1);
     }
     if (breaks) {
@@ -179,8 +181,8 @@ class Layout {
       const bool begins_line = behind_line || (comment.is_line && comment.newlines > 0);
       if (begins_line) {
         new_line(continued());
-      } else if (k > 0 || (before != nullptr &&
-                           (comment.is_line || !is_tight_behind(before->spacing)))) {
+      } else if (k > 0 ||
+                 (before != nullptr && (comment.is_line || !is_tight_behind(before->spacing)))) {
         write_blank();
       }
       write_comment(comment, begins_line);
@@ -199,8 +201,8 @@ class Layout {
     const bool is_end = i + 1 == plan_.tokens.size();
     const bool closes = is_end || token.brk == Break::closer;
     const std::uint64_t inside = inside_of(token);
-    const bool blank_lines = token.brk == Break::item ||
-                             (closes && plan_.groups[token.group].kind == GroupKind::block);
+    const bool blank_lines =
+        token.brk == Break::item || (closes && plan_.groups[token.group].kind == GroupKind::block);
     std::uint32_t k = 0;
     if (i > 0 && (closes || has_line_end(plan_, token))) {
       for (; k < token.comment_count && comment_of(token, k).newlines == 0; ++k) {
@@ -242,8 +244,8 @@ class Layout {
     return token.end - token.begin == 1 && plan_.text[token.begin] == '{';
   }
   std::uint64_t inside_of(const Token& token) const {
-    const bool continues = token.brk == Break::operation || token.brk == Break::wrap ||
-                           token.brk == Break::row;
+    const bool continues =
+        token.brk == Break::operation || token.brk == Break::wrap || token.brk == Break::row;
     return continues ? continued() : containers_.back().inside;
   }
 

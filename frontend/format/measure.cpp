@@ -8,16 +8,17 @@ namespace scenec::frontend::layout {
 
 namespace {
 
-std::uint64_t gap_width(const Plan& plan, std::uint32_t index) {
+std::uint32_t gap_width(const Plan& plan, std::uint32_t index) {
   const Token& token = plan.tokens[index];
   if (index == 0) return 0;
   const Token& before = plan.tokens[index - 1];
   if (token.comment_count == 0) return wants_blank(before, token) ? 1 : 0;
-  std::uint64_t width = is_tight_behind(before.spacing) ? 0 : 1;
+  std::uint32_t width = is_tight_behind(before.spacing) ? 0 : 1;
   for (std::uint32_t i = 0; i < token.comment_count; ++i) {
     const Comment& comment = plan.comments[token.first_comment + i];
-    width += (i > 0 ? 1u : 0u) +
-             count_code_points(plan.text.substr(comment.begin, comment.end - comment.begin));
+    const std::size_t points =
+        count_code_points(plan.text.substr(comment.begin, comment.end - comment.begin));
+    width += (i > 0 ? 1u : 0u) + static_cast<std::uint32_t>(points);
   }
   return width + (is_tight_before(token.spacing) ? 0 : 1);
 }
@@ -30,8 +31,7 @@ std::uint32_t count_forced(const Plan& plan, const Token& token) {
     const bool is_last = i + 1 == token.comment_count;
     const std::uint32_t newlines_behind =
         is_last ? token.newlines : plan.comments[token.first_comment + i + 1].newlines;
-    const bool is_alone =
-        token.brk != Break::never && comment.newlines > 0 && newlines_behind > 0;
+    const bool is_alone = token.brk != Break::never && comment.newlines > 0 && newlines_behind > 0;
     if (comment.is_line || comment.spans_lines || is_alone) ++count;
   }
   return count;
@@ -84,7 +84,7 @@ Measure measure(const Plan& plan) {
   result.begin.resize(count);
   result.tail.resize(count);
   result.forced.resize(count);
-  std::uint64_t column = 0;
+  std::uint32_t column = 0;
   std::uint32_t forced = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     column += gap_width(plan, i);
@@ -97,8 +97,7 @@ Measure measure(const Plan& plan) {
     const Token& next = plan.tokens[i + 1];
     if (may_break(plan, next)) {
       // The comma that a broken list gets behind its last element.
-      const bool gets_comma =
-          next.brk == Break::closer && plan.groups[next.group].takes_comma;
+      const bool gets_comma = next.brk == Break::closer && plan.groups[next.group].takes_comma;
       result.tail[i] = gets_comma ? 1 : 0;
     } else {
       result.tail[i] = result.begin[i + 1] + next.width - result.begin[i] - plan.tokens[i].width +

@@ -23,9 +23,10 @@ namespace scenec::frontend::layout {
 // Whether the comments before a token contain or touch a line end in the source.
 [[nodiscard]] bool has_line_end(const Plan& plan, const Token& token);
 
+// A file has at most 512 MiB, so its width on one line fits.
 struct Measure {
-  std::vector<std::uint64_t> begin;   // column of each token if all stood on one line
-  std::vector<std::uint64_t> tail;    // width glued behind each token, to where a line may end
+  std::vector<std::uint32_t> begin;   // column of each token if all stood on one line
+  std::vector<std::uint32_t> tail;    // width glued behind each token, to where a line may end
   std::vector<std::uint32_t> forced;  // comments up to each token that a line must end at
 };
 [[nodiscard]] Measure measure(const Plan& plan);
@@ -34,7 +35,7 @@ struct Measure {
 [[nodiscard]] inline bool is_forced(const Measure& measure, const Group& group) {
   return measure.forced[group.last] > measure.forced[group.first];
 }
-[[nodiscard]] inline std::uint64_t width_of(const Plan& plan, const Measure& measure,
+[[nodiscard]] inline std::uint32_t width_of(const Plan& plan, const Measure& measure,
                                             const Group& group) {
   return measure.begin[group.last] + plan.tokens[group.last].width - measure.begin[group.first];
 }

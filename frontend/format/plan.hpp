@@ -1,5 +1,5 @@
-// What the layout works on: the tokens of a file in order, with the comments before each, the places
-// where a line may end, and the groups that end all their lines or none. The planners (one a
+// What the layout works on: the tokens of a file in order, with the comments before each, the
+// places where a line may end, and the groups that end all their lines or none. The planners (one a
 // dialect) know the grammar; the layout knows columns.
 #pragma once
 
@@ -49,8 +49,8 @@ struct Comment {
 struct Token {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
-  std::uint32_t line = 0;    // of the source
-  std::uint32_t width = 0;   // in code points
+  std::uint32_t line = 0;          // of the source
+  std::uint32_t width = 0;         // in code points
   std::uint32_t group = no_group;  // the one that decides its break
   std::uint32_t first_comment = 0;
   std::uint32_t comment_count = 0;

@@ -30,7 +30,10 @@ std::uint8_t at_most_two(std::uint32_t count) {
 PlanBuilder::PlanBuilder(const grammar::SyntaxTree& tree, std::uint32_t indent) : tree_(tree) {
   plan_.text = tree.text();
   plan_.indent = indent;
-  plan_.tokens.reserve(tree.nodes().size() / 2 + 1);
+  const auto is_leaf = [](const grammar::SyntaxNode& node) { return grammar::is_token(node.kind); };
+  const auto& nodes = tree.nodes();
+  const auto count = std::count_if(nodes.begin(), nodes.end(), is_leaf);
+  plan_.tokens.reserve(static_cast<std::size_t>(count) + 1);
   plan_.comments.reserve(tree.trivia().size());
   if (plan_.text.starts_with(byte_order_mark)) place_ = byte_order_mark.size();
 }
@@ -47,8 +50,7 @@ void PlanBuilder::take_comments(std::uint32_t before) {
   for (; next_trivia_ < trivia.size() && trivia[next_trivia_].begin < before; ++next_trivia_) {
     const grammar::Trivia& one = trivia[next_trivia_];
     pass_blanks(one.begin);
-    const std::uint32_t inside =
-        count_line_ends(plan_.text.substr(one.begin, one.end - one.begin));
+    const std::uint32_t inside = count_line_ends(plan_.text.substr(one.begin, one.end - one.begin));
     const bool is_line = one.kind != grammar::TriviaKind::block_comment;
     plan_.comments.push_back({one.begin, one.end, at_most_two(newlines_), is_line, inside > 0});
     line_ += inside;
@@ -119,9 +121,8 @@ Plan PlanBuilder::finish() {
         comment.newlines = 1;
       }
     }
-    const bool behind_line =
-        token.comment_count > 0 &&
-        plan_.comments[token.first_comment + token.comment_count - 1].is_line;
+    const bool behind_line = token.comment_count > 0 &&
+                             plan_.comments[token.first_comment + token.comment_count - 1].is_line;
     if (behind_line && token.newlines == 0) token.newlines = 1;
   }
   return std::move(plan_);

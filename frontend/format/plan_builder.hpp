@@ -39,8 +39,8 @@ class PlanBuilder {
   std::size_t next_trivia_ = 0;
   std::uint32_t place_ = 0;
   std::uint32_t line_ = 0;
-  std::uint32_t newlines_ = 0;        // since the token or comment before
-  std::uint32_t gap_ = 0;             // first comment since the token added last
+  std::uint32_t newlines_ = 0;  // since the token or comment before
+  std::uint32_t gap_ = 0;       // first comment since the token added last
 };
 
 }  // namespace scenec::frontend::layout

@@ -1,5 +1,6 @@
-// The plan of a course file. Its tree knows words and values only, so what is a key is decided here:
-// a word is the value of the key before it when that key may take a word and both stand on one line.
+// The plan of a course file. Its tree knows words and values only, so what is a key is decided
+// here: a word is the value of the key before it when that key may take a word and both stand on
+// one line.
 #include <string_view>
 #include <unordered_map>
 
@@ -41,10 +42,10 @@ class Vocabulary {
 // What the elements read so far in one block lead to.
 struct Entry {
   std::uint32_t group = no_group;
-  std::uint32_t next = 0;           // of the block's node
-  bool is_block = true;             // else a bracket
-  bool begins = true;               // the next element begins an entry
-  std::string_view key;             // when the last element was a key
+  std::uint32_t next = 0;  // of the block's node
+  bool is_block = true;    // else a bracket
+  bool begins = true;      // the next element begins an entry
+  std::string_view key;    // when the last element was a key
   bool after_value = false;
   std::uint32_t numbers = 0;
   std::uint32_t brackets = 0;

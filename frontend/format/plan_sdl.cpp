@@ -15,8 +15,8 @@ struct Open {
   SyntaxKind kind;
   std::uint32_t index;
   std::uint32_t next;
-  std::uint32_t group;         // its own or the one around it
-  std::uint32_t branches;      // of an if_item: the group of all branches
+  std::uint32_t group;     // its own or the one around it
+  std::uint32_t branches;  // of an if_item: the group of all branches
   bool owns_group = false;
   std::uint32_t elements = 0;  // nodes directly inside
   std::uint32_t element = 0;   // the last of them

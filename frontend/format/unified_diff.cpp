@@ -45,7 +45,9 @@ std::vector<Change> edits_of(const Lines& a, const Lines& b, const Change& whole
   };
   const Index limit = std::min(n + m, most_edits);
   std::vector<Index> furthest(static_cast<std::size_t>(2 * limit + 3), 0);
-  const auto slot = [&](Index k) -> Index& { return furthest[static_cast<std::size_t>(k + limit + 1)]; };
+  const auto slot = [&](Index k) -> Index& {
+    return furthest[static_cast<std::size_t>(k + limit + 1)];
+  };
   std::vector<std::vector<std::int32_t>> trace;  // of each d: slots -d .. d before it
   for (Index d = 0; d <= limit; ++d) {
     std::vector<std::int32_t>& row = trace.emplace_back();

@@ -51,8 +51,8 @@ class Formatting {
       return ExitCode::file_error;
     }
     const std::string_view before = session_.sources().text(*file);
-    const auto parse = dialect_of(before) == grammar::Dialect::sdl ? grammar::parse_sdl
-                                                                   : grammar::parse_course;
+    const auto parse =
+        dialect_of(before) == grammar::Dialect::sdl ? grammar::parse_sdl : grammar::parse_course;
     const grammar::SyntaxTree tree = parse(*file, before, session_.sink(), {});
     if (session_.sink().has_errors()) return session_.finish(environment_);
     return deliver(before, frontend::format(tree));

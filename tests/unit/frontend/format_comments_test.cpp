@@ -65,8 +65,9 @@ TEST(FormatComments, BlockCommentsMoveWhole) {
 }
 
 TEST(FormatComments, DocumentationKeepsItsItem) {
-  expect_format("   /// about a\nlet a=1;/// not about b\nlet b=2;\n/// not about c\n\nlet c=3;",
-                "/// about a\nlet a = 1; /// not about b\nlet b = 2;\n/// not about c\n\nlet c = 3;\n");
+  expect_format(
+      "   /// about a\nlet a=1;/// not about b\nlet b=2;\n/// not about c\n\nlet c=3;",
+      "/// about a\nlet a = 1; /// not about b\nlet b = 2;\n/// not about c\n\nlet c = 3;\n");
   expect_format("group{/// not about the sphere\nsphere{}}",
                 "group { /// not about the sphere\n  sphere { }\n}\n");
 }
@@ -79,8 +80,7 @@ TEST(FormatComments, BetweenAnnotationAndItem) {
 TEST(FormatComments, AtTheEndsOfTheFile) {
   EXPECT_EQ(formatted("// a\n\n\nsdl 1;\n\n\n// b", grammar::Dialect::sdl),
             "// a\n\nsdl 1;\n\n// b\n");
-  EXPECT_EQ(formatted("/* a */sdl 1;/* b */", grammar::Dialect::sdl),
-            "/* a */ sdl 1; /* b */\n");
+  EXPECT_EQ(formatted("/* a */sdl 1;/* b */", grammar::Dialect::sdl), "/* a */ sdl 1; /* b */\n");
 }
 
 }  // namespace

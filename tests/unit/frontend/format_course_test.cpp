@@ -23,7 +23,8 @@ TEST(FormatCourse, AShortBlockStaysOnItsLine) {
 }
 
 TEST(FormatCourse, BracketsKeepTheBlanksTheOriginalReaderNeeds) {
-  expect_format("BezierCurve{controls[0 0 0][1 1 0]}", "BezierCurve { controls [ 0 0 0 ] [ 1 1 0 ] }\n");
+  expect_format("BezierCurve{controls[0 0 0][1 1 0]}",
+                "BezierCurve { controls [ 0 0 0 ] [ 1 1 0 ] }\n");
 }
 
 TEST(FormatCourse, WordsThatAreValues) {

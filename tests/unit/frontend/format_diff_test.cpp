@@ -34,7 +34,8 @@ TEST(UnifiedDiff, ManyChangesAreOneReplacement) {
     before += "a" + std::to_string(i) + "\n";
     after += "b" + std::to_string(i) + "\n";
   }
-  EXPECT_TRUE(unified_diff(before, after, "x", "y").starts_with("--- x\n+++ y\n@@ -1,3000 +1,3000 @@\n-a0\n"));
+  EXPECT_TRUE(unified_diff(before, after, "x", "y")
+                  .starts_with("--- x\n+++ y\n@@ -1,3000 +1,3000 @@\n-a0\n"));
 }
 
 }  // namespace

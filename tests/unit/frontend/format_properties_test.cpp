@@ -92,8 +92,9 @@ class Mutator {
   void change(std::string& text, std::pair<std::uint32_t, std::uint32_t> piece, Dialect dialect) {
     static constexpr const char* blanks[] = {" ", "\n", "\n\n", "\n\n\n", "\r\n", "\t", "  \n  "};
     static constexpr const char* comments[] = {
-        " // c\n", "\n// c\n", " /// d\n", "\n/// d\n", "/* b */", "\n/* b */\n", " /* b */\n",
-        "\n/* b */ ", "/* m\n   m */", "\n    /* m\n  m */\n", "// c\n// e\n", "/* b *//* e */"};
+        " // c\n",      "\n// c\n",      " /// d\n",   "\n/// d\n",     "/* b */",
+        "\n/* b */\n",  " /* b */\n",    "\n/* b */ ", "/* m\n   m */", "\n    /* m\n  m */\n",
+        "// c\n// e\n", "/* b *//* e */"};
     static constexpr const char* course_comments[] = {" # c\n", "\n# c\n", " // c\n", "\n\n// c\n"};
     const auto [begin, end] = piece;
     switch (below(6)) {
@@ -153,7 +154,8 @@ TEST(FormatProperties, MutationsOfScenes) {
 }
 
 TEST(FormatProperties, DeepAndWideTextsAreFormattedInTheSameTimeAByte) {
-  std::string deep = "sdl 1;\nlet a = " + std::string(250, '[') + "1" + std::string(250, ']') + ";\n";
+  std::string deep =
+      "sdl 1;\nlet a = " + std::string(250, '[') + "1" + std::string(250, ']') + ";\n";
   EXPECT_EQ(problem_of(deep, Dialect::sdl), "");
   std::string blocks = "sdl 1;\n";
   for (int i = 0; i < 250; ++i) blocks += "group {";

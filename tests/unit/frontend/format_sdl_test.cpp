@@ -56,7 +56,8 @@ TEST(FormatSdl, ABlockThatDoesNotFitIsBroken) {
 }
 
 TEST(FormatSdl, BranchesAreBrokenTogether) {
-  expect_format("if a{b=1;}else if c{}else{d=1;}", "if a { b = 1; } else if c { } else { d = 1; }\n");
+  expect_format("if a{b=1;}else if c{}else{d=1;}",
+                "if a { b = 1; } else if c { } else { d = 1; }\n");
   expect_format("if a{b=1;}\nelse if c{d=1;}else{}",
                 "if a {\n  b = 1;\n} else if c {\n  d = 1;\n} else { }\n");
 }
@@ -76,14 +77,15 @@ TEST(FormatSdl, NumbersShareLines) {
   std::string numbers;
   for (int i = 0; i < 40; ++i) numbers += "10" + std::to_string(i) + ", ";
   const std::string text = formatted_items("let a = [" + numbers + "-1];");
-  EXPECT_EQ(text,
-            "let a = [\n"
-            "  100, 101, 102, 103, 104, 105, 106, 107, 108, 109, 1010, 1011, 1012, 1013, 1014, 1015,"
-            " 1016, 1017,\n"
-            "  1018, 1019, 1020, 1021, 1022, 1023, 1024, 1025, 1026, 1027, 1028, 1029, 1030, 1031,"
-            " 1032, 1033,\n"
-            "  1034, 1035, 1036, 1037, 1038, 1039, -1,\n"
-            "];\n");
+  EXPECT_EQ(
+      text,
+      "let a = [\n"
+      "  100, 101, 102, 103, 104, 105, 106, 107, 108, 109, 1010, 1011, 1012, 1013, 1014, 1015,"
+      " 1016, 1017,\n"
+      "  1018, 1019, 1020, 1021, 1022, 1023, 1024, 1025, 1026, 1027, 1028, 1029, 1030, 1031,"
+      " 1032, 1033,\n"
+      "  1034, 1035, 1036, 1037, 1038, 1039, -1,\n"
+      "];\n");
   EXPECT_EQ(formatted_items(text), text);
 }
 
@@ -102,8 +104,7 @@ TEST(FormatSdl, LongChainsBreakBeforeTheirOperators) {
 TEST(FormatSdl, AtMostOneBlankLine) {
   expect_format("\n\n\nlet a = 1;\n\n\n\nlet b = 2;\nlet c = 3;\n\n\n",
                 "\nlet a = 1;\n\nlet b = 2;\nlet c = 3;\n");
-  expect_format("group {\n\n\n  a = 1;\n\n\n  b = 2;\n\n}",
-                "group {\n  a = 1;\n\n  b = 2;\n}\n");
+  expect_format("group {\n\n\n  a = 1;\n\n\n  b = 2;\n\n}", "group {\n  a = 1;\n\n  b = 2;\n}\n");
 }
 
 TEST(FormatSdl, AnnotationsKeepTheirLine) {
