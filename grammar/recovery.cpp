@@ -45,7 +45,8 @@ struct Place {
 std::string after(TreeBuilder& builder) {
   const SyntaxNode last = builder.last_token();
   if (last.next == 0) return {};
-  return " after " + scan::found(builder.text().substr(0, last.end), last.begin);
+  const std::string_view token = builder.text().substr(last.begin, last.end - last.begin);
+  return token.starts_with('"') ? " after a string" : " after `" + printable(token, 40) + "`";
 }
 
 bool is_unknown_character(const Place& place) {
