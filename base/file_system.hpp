@@ -22,6 +22,7 @@ enum class FileError : std::uint8_t {
   no_permission,
   too_large,
   read_failed,
+  outside_root,  // see base/rooted_file_system.hpp
 };
 [[nodiscard]] std::string_view text_of(FileError error);  // "no such file", "is a directory", ...
 
@@ -39,6 +40,10 @@ class FileSystem {
   [[nodiscard]] virtual Result<FileContent, FileError> read(const std::string& path,
                                                             std::uint64_t size_limit) = 0;
   [[nodiscard]] virtual bool is_file(const std::string& path) = 0;
+  // Why a read failed, for a message; says more than `text_of` where the file system knows more.
+  [[nodiscard]] virtual std::string reason_of(FileError error) const {
+    return std::string(text_of(error));
+  }
 };
 
 class RealFileSystem final : public FileSystem {
@@ -69,6 +74,7 @@ class RecordingFileSystem final : public FileSystem {
   explicit RecordingFileSystem(FileSystem& inner) : inner_(inner) {}
   Result<FileContent, FileError> read(const std::string& path, std::uint64_t size_limit) override;
   bool is_file(const std::string& path) override;
+  std::string reason_of(FileError error) const override { return inner_.reason_of(error); }
   [[nodiscard]] std::vector<FileRecord> records() const;  // sorted by path, one a path
 
  private:
