@@ -53,7 +53,7 @@ class Renderer {
 
   void render(const Diagnostic& diagnostic) {
     const DiagnosticKindInfo& info = info_of(diagnostic.kind);
-    const bool is_error = info.severity == Severity::error;
+    const bool is_error = options_.severity.value_or(info.severity) == Severity::error;
     const Span place = sources_.resolve(diagnostic.span);
     head_style_ = is_error ? Style::error : Style::warning;
     head(place, fmt::format("{}[{}]", is_error ? "error" : "warning", info.code), head_style_,

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <exception>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "runtime/dependencies.hpp"
 #include "runtime/help.hpp"
 
 namespace scenec::runtime {
@@ -50,6 +52,32 @@ std::vector<std::string_view> names_of(const OptionRow& row) {
   return {row.names.substr(0, comma), row.names.substr(comma + 1)};
 }
 
+// CLI11 takes names of one letter, or of several behind two dashes: `-MF x` is `--MF x` to it.
+constexpr std::array<std::string_view, 4> make_options{"-MD", "-MF", "-MT", "-MP"};
+
+bool is_make_option(std::string_view name) {
+  return std::find(make_options.begin(), make_options.end(), name) != make_options.end();
+}
+
+// `-MFfile`, as compilers take it, becomes `--MF=file`.
+void rewrite_make_options(std::vector<std::string>& words) {
+  for (std::string& word : words) {
+    if (word == "--") return;
+    const std::string name = word.substr(0, 3);
+    if (!is_make_option(name)) continue;
+    const bool is_joined = word.size() > 3 && (name == "-MF" || name == "-MT");
+    if (is_joined && word[3] != '=') word.insert(3, "=");
+    if (word.size() == 3 || is_joined) word.insert(0, "-");
+  }
+}
+
+// A word as it was before.
+std::string_view as_typed(std::string_view word) {
+  const bool was_rewritten = word.starts_with("--M") && is_make_option(word.substr(1, 3)) &&
+                             (word.size() == 4 || word[4] == '=');
+  return was_rewritten ? word.substr(1) : word;
+}
+
 // The name as typed without its `=value`.
 std::string_view name_part(std::string_view word) {
   return word.substr(0, word.find('='));
@@ -82,7 +110,7 @@ std::variant<std::vector<std::string>, UsageError> operands_of(
     if (!options_ended && word == "--") {
       options_ended = true;
     } else if (!options_ended && word.size() > 1 && word.starts_with('-')) {
-      return unknown_option(word, verb);
+      return unknown_option(as_typed(word), verb);
     } else {
       operands.push_back(word);
     }
@@ -135,7 +163,8 @@ std::optional<UsageError> store(Options& options, Gathered& gathered) {
   }
   for (const std::string& value : gathered.values) {
     if (value.starts_with("--")) {
-      return UsageError{fmt::format("`{}` needs a value before `{}`", name, printable(value))};
+      return UsageError{
+          fmt::format("`{}` needs a value before `{}`", name, printable(as_typed(value)))};
     }
     if (const std::optional<std::string> expected = row.store(options, value)) {
       return UsageError{fmt::format("`{}` is `{}`; needs {}", name, printable(value), *expected)};
@@ -152,7 +181,7 @@ CommandLine parse_words(Verb verb, std::vector<std::string> words) {
   for (const OptionRow& row : all_options()) {
     if (!row.verbs.contains(verb)) continue;
     Gathered& gathered = all_gathered.emplace_back(Gathered{&row, {}, {}});
-    const std::string names(row.names);
+    const std::string names = (is_make_option(row.names) ? "-" : "") + std::string(row.names);
     if (row.need == ValueNeed::required) {
       gathered.option = app.add_option(names, gathered.values)->allow_extra_args(false);
     } else {
@@ -161,6 +190,7 @@ CommandLine parse_words(Verb verb, std::vector<std::string> words) {
     }
   }
   const std::string last_word = words.empty() ? "" : words.back();
+  rewrite_make_options(words);
   std::reverse(words.begin(), words.end());  // CLI11 takes them from the back
   try {
     app.parse(words);
@@ -178,6 +208,7 @@ CommandLine parse_words(Verb verb, std::vector<std::string> words) {
     if (auto problem = store(options, gathered)) return *problem;
   }
   if (auto problem = find_operand_problem(options)) return *problem;
+  if (auto problem = find_dependency_problem(options)) return UsageError{*std::move(problem)};
   return options;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <limits>
 
 #include "base/text.hpp"
@@ -17,6 +18,7 @@ using Problem = std::optional<std::string>;
 constexpr VerbSet render_only{Verb::render};
 constexpr VerbSet compiling{Verb::render, Verb::check, Verb::dump};
 constexpr VerbSet reading{Verb::render, Verb::check, Verb::dump, Verb::convert, Verb::fmt};
+constexpr VerbSet diagnosing{Verb::render, Verb::check, Verb::dump, Verb::convert};
 constexpr VerbSet writing{Verb::render, Verb::dump, Verb::convert};
 
 constexpr std::int64_t largest_sample_count = 1048576;
@@ -152,6 +154,32 @@ constexpr std::array option_table{
                 constexpr std::array<Text, 3> names{"auto", "always", "never"};
                 return store_choice<ColorChoice>(o.color, v, names);
               }},
+    OptionRow{"--diagnostics", "FORM", "text, json (one object a line) or sarif", diagnosing,
+              [](Options& o, Text v) {
+                constexpr std::array<Text, 3> names{"text", "json", "sarif"};
+                return store_choice<DiagnosticsForm>(o.diagnostics, v, names);
+              }},
+    OptionRow{"--deny", "LINT", "count a lint, or all `warnings`, as errors; may be repeated",
+              diagnosing, [](Options& o, Text v) { return o.denials.add(v); }, ValueNeed::required,
+              Repeat::many},
+    OptionRow{"-MD", "", "write the files that were read as a rule for make or ninja", diagnosing,
+              [](Options& o, Text) -> Problem {
+                o.dependencies = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
+    OptionRow{"-MF", "FILE", "where -MD writes (default: the output's name with `.d`)", diagnosing,
+              [](Options& o, Text v) { return store_path(o.dependency_file, v); }},
+    OptionRow{"-MT", "TARGET", "target of -MD's rule (default: the output); may be repeated",
+              diagnosing,
+              [](Options& o, Text v) { return store_path(o.dependency_targets.emplace_back(), v); },
+              ValueNeed::required, Repeat::many},
+    OptionRow{"-MP", "", "an empty rule for every file of -MD but the scene", diagnosing,
+              [](Options& o, Text) -> Problem {
+                o.phony_dependencies = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
     OptionRow{"--check", "", "name the files that are not formatted, change none",
               VerbSet{Verb::fmt},
               [](Options& o, Text) -> Problem {
@@ -189,6 +217,11 @@ constexpr std::array option_table{
 
 std::span<const OptionRow> all_options() {
   return option_table;
+}
+
+std::string output_of(const Options& options) {
+  if (options.verb != Verb::render || !options.output.empty()) return options.output;
+  return std::filesystem::path(options.operands.at(0)).stem().string() + ".png";
 }
 
 std::string picture_command(const Options& options) {

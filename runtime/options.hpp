@@ -13,6 +13,7 @@
 #include "base/units.hpp"
 #include "grammar/parse.hpp"
 #include "ir/render_settings.hpp"
+#include "runtime/denials.hpp"
 #include "runtime/environment.hpp"
 #include "runtime/option_values.hpp"
 #include "runtime/verbs.hpp"
@@ -21,6 +22,7 @@ namespace scenec::runtime {
 
 enum class ProgressStyle : std::uint8_t { automatic, plain, json, none };
 enum class DumpStage : std::uint8_t { tree, ast, ir };
+enum class DiagnosticsForm : std::uint8_t { text, json, sarif };
 enum class StatsForm : std::uint8_t { none, table, json };
 
 struct Options {
@@ -45,6 +47,12 @@ struct Options {
   std::optional<std::int64_t> threads;
   bool stamp = false;
   ColorChoice color = ColorChoice::automatic;
+  DiagnosticsForm diagnostics = DiagnosticsForm::text;
+  Denials denials;
+  bool dependencies = false;                    // -MD
+  std::string dependency_file;                  // -MF; empty: named after the output
+  std::vector<std::string> dependency_targets;  // -MT; empty: the output
+  bool phony_dependencies = false;              // -MP
   ProgressStyle progress = ProgressStyle::automatic;
   StatsForm stats = StatsForm::none;
   std::string stats_file;  // of StatsForm::json
@@ -85,6 +93,9 @@ struct OptionRow {
   Repeat repeat = Repeat::once;
 };
 [[nodiscard]] std::span<const OptionRow> all_options();
+
+// The file the verb writes; empty: standard output, or nothing is written.
+[[nodiscard]] std::string output_of(const Options& options);
 
 // The options that change the picture in a fixed order and form: the same picture has the same
 // command, whatever was typed.

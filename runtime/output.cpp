@@ -4,6 +4,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/text.hpp"
+#include "runtime/dependencies.hpp"
 
 namespace scenec::runtime {
 
@@ -20,6 +21,11 @@ bool check_output(const std::string& path, DiagnosticSink& sink) {
   const std::optional<std::string> problem = find_output_problem(path);
   if (problem) report(sink, DiagnosticKind::output_unwritable, path, *problem);
   return !problem;
+}
+
+bool check_outputs(const Options& options, DiagnosticSink& sink) {
+  const bool output_fits = options.output.empty() || check_output(options.output, sink);
+  return (!options.dependencies || check_output(dependency_file_of(options), sink)) && output_fits;
 }
 
 std::optional<backend::ImageFormat> check_picture_output(const std::string& path,

@@ -19,6 +19,8 @@ namespace scenec::runtime {
                                                                        DiagnosticSink& sink);
 // False when `path` cannot be replaced (reported).
 bool check_output(const std::string& path, DiagnosticSink& sink);
+// The same for the file of `-o`, when one is named, and the dependency file, when there is one.
+bool check_outputs(const Options& options, DiagnosticSink& sink);
 // False when `path` is a file this run has read (reported).
 bool check_output_is_no_input(const std::string& path, Session& session);
 // False when writing failed (reported); then nothing partial is left behind.

@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "base/render_diagnostic.hpp"
+#include "runtime/dependencies.hpp"
+#include "runtime/output.hpp"
 
 namespace scenec::runtime {
 
@@ -36,6 +38,10 @@ std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+bool is_error(const Finding& finding) {
+  return finding.severity == Severity::error;
+}
+
 // A mistake in `-D` is a mistake of the command line, although the compiler finds it: the parameter
 // does not exist, or the error lies in the text behind the name, which is a file of its own.
 bool is_usage_mistake(const Diagnostic& diagnostic, const SourceMap& sources) {
@@ -56,6 +62,7 @@ std::optional<frontend::LoadedFile> Session::load(
     const std::optional<std::string>& output_directory) {
   auto file =
       frontend::load(scene_path_, compile_options_, files_, sources_, sink_, output_directory);
+  loaded_ = true;
   scene_unreadable_ = !file.has_value();
   return file;
 }
@@ -72,31 +79,95 @@ bool Session::has_read(const std::string& path) const {
   });
 }
 
-ExitCode Session::finish(const Environment& environment) const {
-  const std::vector<Diagnostic> diagnostics = sink_.sorted();
-  const RenderOptions form{.color = use_color(options_.color, environment)};
-  const std::size_t printed = std::min(diagnostics.size(), most_diagnostics_printed);
+bool Session::has_errors() const {
+  if (sink_.has_errors()) return true;
+  const std::vector<Finding> all = findings();
+  return std::any_of(all.begin(), all.end(), is_error);
+}
+
+std::vector<Finding> Session::findings() const {
+  std::vector<Finding> result;
+  for (Diagnostic& diagnostic : sink_.sorted()) {
+    Severity severity = info_of(diagnostic.kind).severity;
+    if (options_.denials.cover(diagnostic.kind)) {
+      severity = Severity::error;
+      diagnostic.notes.push_back({"denied by `--deny`", {}});
+    }
+    result.push_back({std::move(diagnostic), severity});
+  }
+  return result;
+}
+
+bool Session::write_dependencies() {
+  if (!options_.dependencies || !loaded_) return true;
+  const std::string path = dependency_file_of(options_);
+  if (!check_output_is_no_input(path, *this)) return false;
+  const Result<std::string, std::string> text =
+      dependency_text({.targets = dependency_targets_of(options_),
+                       .scene = scene_path_,
+                       .files = files_.records(),
+                       .phony = options_.phony_dependencies,
+                       .complete = !has_errors()});
+  if (text.ok()) return write_output(path, text.value(), sink_);
+  sink_.report(Diagnostic(
+      DiagnosticKind::output_unwritable, {},
+      fmt::format("`{}`: no dependency file can hold the name `{}`", path, text.error())));
+  return false;
+}
+
+void Session::print(const std::vector<Finding>& findings, const Environment& environment) const {
+  if (options_.diagnostics == DiagnosticsForm::sarif) {
+    environment.err << sarif_log(findings, sources_);
+    return;
+  }
+  if (options_.diagnostics == DiagnosticsForm::json) {
+    for (const Finding& finding : findings) environment.err << json_line(finding, sources_);
+    return;
+  }
+  const std::size_t printed = std::min(findings.size(), most_diagnostics_printed);
   for (std::size_t i = 0; i < printed; ++i) {
-    std::string text = render_terminal(diagnostics[i], sources_, form);
+    const RenderOptions form{.color = use_color(options_.color, environment),
+                             .severity = findings[i].severity};
+    std::string text = render_terminal(findings[i].diagnostic, sources_, form);
     if (!text.ends_with('\n')) text += '\n';
     environment.err << text;
   }
-  if (printed < diagnostics.size()) {
-    environment.err << fmt::format("and {} more\n", diagnostics.size() - printed);
+  if (printed < findings.size()) {
+    environment.err << fmt::format("and {} more\n", findings.size() - printed);
   }
-  const std::size_t errors = sink_.error_count();
-  const std::size_t warnings = sink_.warning_count();
+  const auto errors =
+      static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
+  const std::size_t warnings = findings.size() - errors;
   if (errors > 0 && warnings > 0) {
     environment.err << fmt::format("{}, {}\n", counted(errors, "error"),
                                    counted(warnings, "warning"));
   } else if (errors + warnings > 0) {
     environment.err << counted(errors + warnings, errors > 0 ? "error" : "warning") << '\n';
   }
-  if (errors == 0) return ExitCode::ok;
-  const auto is_usage = [&](const Diagnostic& d) { return is_usage_mistake(d, sources_); };
-  if (std::any_of(diagnostics.begin(), diagnostics.end(), is_usage)) return ExitCode::usage;
-  if (sink_.only_limits()) return ExitCode::limit;
+}
+
+ExitCode Session::finish(const Environment& environment) {
+  const bool dependencies_written = write_dependencies();
+  const std::vector<Finding> all = findings();
+  print(all, environment);
+  if (!dependencies_written) return ExitCode::file_error;
+  if (std::none_of(all.begin(), all.end(), is_error)) return ExitCode::ok;
+  const auto is_usage = [&](const Finding& f) { return is_usage_mistake(f.diagnostic, sources_); };
+  if (std::any_of(all.begin(), all.end(), is_usage)) return ExitCode::usage;
+  const auto is_no_limit = [](const Finding& f) {
+    return is_error(f) && !info_of(f.diagnostic.kind).is_limit();
+  };
+  if (std::none_of(all.begin(), all.end(), is_no_limit)) return ExitCode::limit;
   return scene_unreadable_ ? ExitCode::file_error : ExitCode::scene_error;
+}
+
+void Session::print_late(const Diagnostic& diagnostic, const Environment& environment) const {
+  if (options_.diagnostics == DiagnosticsForm::json) {
+    environment.err << json_line({diagnostic, Severity::error}, sources_);
+  } else {
+    environment.err << fmt::format("scenec: error[{}]: {}\n", info_of(diagnostic.kind).code,
+                                   diagnostic.message);
+  }
 }
 
 }  // namespace scenec::runtime

@@ -4,12 +4,14 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
 #include "base/source_map.hpp"
 #include "frontend/compile.hpp"
 #include "ir/scene.hpp"
+#include "runtime/diagnostic_formats.hpp"
 #include "runtime/environment.hpp"
 #include "runtime/exit_codes.hpp"
 #include "runtime/options.hpp"
@@ -34,13 +36,25 @@ class Session {
   // Whether one of the files read so far is the file `path` names, by whatever name.
   [[nodiscard]] bool has_read(const std::string& path) const;
 
-  // Prints what was found, sorted, and a line that counts; returns the exit code it calls for.
-  [[nodiscard]] ExitCode finish(const Environment& environment) const;
+  // Whether there is an error or a lint that counts as one.
+  [[nodiscard]] bool has_errors() const;
+  // What was found, sorted, with what `--deny` makes of it.
+  [[nodiscard]] std::vector<Finding> findings() const;
+
+  // Writes the dependency file when one is asked for and a scene was loaded, prints what was found
+  // and, for people, a line that counts; returns the exit code it calls for.
+  [[nodiscard]] ExitCode finish(const Environment& environment);
+  // For what goes wrong after finish() has printed.
+  void print_late(const Diagnostic& diagnostic, const Environment& environment) const;
 
  private:
+  [[nodiscard]] bool write_dependencies();
+  void print(const std::vector<Finding>& findings, const Environment& environment) const;
+
   const Options& options_;
   frontend::CompileOptions compile_options_;
   std::string scene_path_;
+  bool loaded_ = false;
   bool scene_unreadable_ = false;
   RealFileSystem disk_;
   RecordingFileSystem files_;

@@ -1,6 +1,7 @@
 // `scenec check`: compiles a scene and reads its assets; silent when all is well.
 #include "backend/backend.hpp"
 #include "base/parallel.hpp"
+#include "runtime/output.hpp"
 #include "runtime/session.hpp"
 #include "runtime/verbs.hpp"
 
@@ -8,6 +9,10 @@ namespace scenec::runtime {
 
 ExitCode verbs::check(const Options& options, const Environment& environment) {
   Session session(options);
+  if (!check_outputs(options, session.sink())) {
+    static_cast<void>(session.finish(environment));
+    return ExitCode::file_error;
+  }
   if (const auto file = session.load()) {
     if (const auto scene = session.compile(*file)) {
       ThreadPool pool(static_cast<unsigned>(options.threads.value_or(0)));

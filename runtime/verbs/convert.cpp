@@ -11,12 +11,12 @@ namespace scenec::runtime {
 
 ExitCode verbs::convert(const Options& options, const Environment& environment) {
   Session session(options);
-  if (!options.output.empty() && !check_output(options.output, session.sink())) {
+  if (!check_outputs(options, session.sink())) {
     static_cast<void>(session.finish(environment));
     return ExitCode::file_error;
   }
   const auto file = session.load(directory_of(options.output));
-  if (!file || (session.sink().has_errors() && file->native)) return session.finish(environment);
+  if (!file || (session.has_errors() && file->native)) return session.finish(environment);
   if (!file->native) {
     environment.err << fmt::format("scenec: `{}` is in the native language already\n",
                                    printable(session.scene_path()));

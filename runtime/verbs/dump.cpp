@@ -22,7 +22,7 @@ std::string ended(std::string text) {
 
 ExitCode verbs::dump(const Options& options, const Environment& environment) {
   Session session(options);
-  if (!options.output.empty() && !check_output(options.output, session.sink())) {
+  if (!check_outputs(options, session.sink())) {
     static_cast<void>(session.finish(environment));
     return ExitCode::file_error;
   }
@@ -36,7 +36,7 @@ ExitCode verbs::dump(const Options& options, const Environment& environment) {
                       environment);
   }
   const auto scene = session.compile(*file);
-  if (!scene) return session.finish(environment);
+  if (!scene || session.has_errors()) return session.finish(environment);
   const std::string text = ir::dump_text(*scene, {.directory = directory_of(options.output)});
   return write_text(options.output, text, session, environment);
 }

@@ -41,13 +41,6 @@ std::string_view name_of(Severity severity) {
   return severity == Severity::error ? "error" : "warning";
 }
 
-bool same_letters(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) {
-    return lower(x) == lower(y) || (lower(x) == '_' && y == '-');
-  });
-}
-
 ExitCode list_all(const Environment& environment) {
   std::vector<DiagnosticKindInfo> kinds(all_diagnostic_kinds().begin(),
                                         all_diagnostic_kinds().end());
@@ -64,14 +57,16 @@ ExitCode list_all(const Environment& environment) {
 ExitCode verbs::explain(const Options& options, const Environment& environment) {
   if (options.list) return list_all(environment);
   const std::string& wanted = options.operands.at(0);
+  if (const DiagnosticKindInfo* const kind = find_diagnostic(wanted)) {
+    environment.out << fmt::format("{} {} ({}): {}\n\n{}", kind->code, kind->name,
+                                   name_of(kind->severity), kind->title,
+                                   wrapped(kind->explanation));
+    return ExitCode::ok;
+  }
   std::vector<std::string_view> known;
   for (const DiagnosticKindInfo& kind : all_diagnostic_kinds()) {
     known.push_back(kind.code);
     known.push_back(kind.name);
-    if (!same_letters(wanted, kind.code) && !same_letters(wanted, kind.name)) continue;
-    environment.out << fmt::format("{} {} ({}): {}\n\n{}", kind.code, kind.name,
-                                   name_of(kind.severity), kind.title, wrapped(kind.explanation));
-    return ExitCode::ok;
   }
   const std::optional<std::string_view> nearest = nearest_name(wanted, known);
   environment.err << fmt::format("scenec: unknown diagnostic `{}`{}\n", printable(wanted),

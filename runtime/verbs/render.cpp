@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <ctime>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,10 +25,6 @@ namespace scenec::runtime {
 namespace {
 
 constexpr std::int64_t sample_cap = 1048576;  // of `--time` without `--samples`
-
-std::string default_output(const std::string& scene_path) {
-  return std::filesystem::path(scene_path).stem().string() + ".png";
-}
 
 std::optional<ir::CameraId> find_camera(const ir::Scene& scene, const std::string& name,
                                         const Environment& environment) {
@@ -107,6 +102,13 @@ backend::EncodeOptions encode_options(const Options& options, const ir::Scene& s
   return encode;
 }
 
+// Where a program reads the diagnostics, no other lines are mixed in unless asked for.
+ProgressStyle progress_style_of(const Options& options) {
+  const bool for_people = options.diagnostics == DiagnosticsForm::text;
+  const bool is_default = options.progress == ProgressStyle::automatic;
+  return is_default && !for_people ? ProgressStyle::none : options.progress;
+}
+
 class RenderRun {
  public:
   RenderRun(const Options& options, const Environment& environment)
@@ -114,7 +116,9 @@ class RenderRun {
         environment_(environment),
         signals_(environment.handle_signals ? SignalWatch::Mode::watch : SignalWatch::Mode::ignore),
         session_(options),
-        output_(options.output.empty() ? default_output(session_.scene_path()) : options.output),
+        output_(output_of(options)),
+        is_one_document_(options.diagnostics == DiagnosticsForm::sarif),
+        progress_(progress_style_of(options)),
         clock_(stats_),
         pool_(static_cast<unsigned>(options.threads.value_or(0))) {}
 
@@ -122,7 +126,8 @@ class RenderRun {
     const auto format = check_picture_output(output_, session_.sink());
     const bool stats_fit =
         options_.stats_file.empty() || check_output(options_.stats_file, session_.sink());
-    if (!format || !stats_fit) return refuse_output();
+    const bool others_fit = check_outputs(options_, session_.sink());
+    if (!format || !stats_fit || !others_fit) return refuse_output();
     const auto file = session_.load();
     if (!file) return session_.finish(environment_);
     const auto scene = session_.compile(*file);
@@ -135,7 +140,10 @@ class RenderRun {
     clock_.finish("prepare");
     if (!prepared) return session_.finish(environment_);
     if (!check_output_is_no_input(output_, session_)) return refuse_output();
-    static_cast<void>(session_.finish(environment_));  // lints, before the long wait
+    if (session_.has_errors()) return session_.finish(environment_);
+    if (is_one_document_) return render_then_finish(*scene, *settings, *prepared, *format);
+    // Lints before the long wait.
+    if (const ExitCode code = session_.finish(environment_); code != ExitCode::ok) return code;
     return render(*scene, *settings, *prepared, *format);
   }
 
@@ -145,12 +153,20 @@ class RenderRun {
     return ExitCode::file_error;
   }
 
+  // A SARIF log is one document: it is printed when there is nothing left to go wrong.
+  ExitCode render_then_finish(const ir::Scene& scene, const ir::RenderSettings& settings,
+                              const backend::PreparedScene& prepared, backend::ImageFormat format) {
+    const ExitCode code = render(scene, settings, prepared, format);
+    const ExitCode finished = session_.finish(environment_);
+    return code == ExitCode::ok ? finished : code;
+  }
+
   ExitCode render(const ir::Scene& scene, const ir::RenderSettings& settings,
                   const backend::PreparedScene& prepared, backend::ImageFormat format) {
     const backend::RenderScenePtr built = backend::build(prepared, pool_);
     clock_.finish("build");
     signals_.allow_graceful_stop();
-    ProgressPrinter progress(options_.progress, environment_);
+    ProgressPrinter progress(progress_, environment_);
     const backend::Picture picture =
         backend::render(*built, settings, pool_, signals_.stop(),
                         [&](const backend::Progress& done) { progress.update(done); });
@@ -169,7 +185,7 @@ class RenderRun {
         picture, settings, format, encode_options(options_, scene, settings, picture, pool_));
     if (const auto problem = write_file(output_, bytes)) return *problem;
     clock_.finish("write");
-    if (options_.progress != ProgressStyle::none && options_.progress != ProgressStyle::json) {
+    if (progress_ != ProgressStyle::none && progress_ != ProgressStyle::json) {
       environment_.err << fmt::format(
           "{}: {}x{}, {} sample{} a pixel, {}{}\n", printable(output_), picture.width,
           picture.height, picture.samples, picture.samples == 1 ? "" : "s",
@@ -184,8 +200,11 @@ class RenderRun {
     DiagnosticSink sink;
     if (write_output(path, bytes, sink)) return std::nullopt;
     for (const Diagnostic& diagnostic : sink.sorted()) {
-      environment_.err << fmt::format("scenec: error[{}]: {}\n", info_of(diagnostic.kind).code,
-                                      diagnostic.message);
+      if (is_one_document_) {
+        session_.sink().report(diagnostic);
+      } else {
+        session_.print_late(diagnostic, environment_);
+      }
     }
     return ExitCode::file_error;
   }
@@ -210,6 +229,8 @@ class RenderRun {
   SignalWatch signals_;  // before the pool: its threads inherit the blocked signals
   Session session_;
   std::string output_;
+  bool is_one_document_;
+  ProgressStyle progress_;
   RunStats stats_;
   PhaseClock clock_;
   ThreadPool pool_;

@@ -126,5 +126,38 @@ TEST(Cli, ThePictureCommandIsInOneFormAndHoldsNoPath) {
   EXPECT_EQ(picture_command(b), picture_command(a) + " --half");
 }
 
+TEST(Cli, MakeOptionsAreReadAsCompilersReadThem) {
+  const Options options = options_from({"a.sdl", "-o", "a.png", "-MD", "-MF", "x.d", "-MTt", "-MT",
+                                        "u v", "-MP", "-D", "MD=1", "-DMP=2"});
+  EXPECT_TRUE(options.dependencies);
+  EXPECT_TRUE(options.phony_dependencies);
+  EXPECT_EQ(options.dependency_file, "x.d");
+  EXPECT_EQ(options.dependency_targets, (Words{"t", "u v"}));
+  ASSERT_EQ(options.settings.size(), 2u);
+  EXPECT_EQ(options.settings[0].name, "MD");
+  EXPECT_EQ(options.settings[1].name, "MP");
+  EXPECT_EQ(options_from({"check", "--", "-MD"}).operands, Words{"-MD"});
+}
+
+TEST(Cli, MakeOptionsAreNamedAsTyped) {
+  EXPECT_EQ(usage_message({"a.sdl", "-MF", "x.d"}), "`-MF` needs `-MD`");
+  EXPECT_EQ(usage_message({"a.sdl", "-MT", "-MD"}), "`-MT` needs a value before `-MD`");
+  EXPECT_EQ(usage_message({"a.sdl", "-MD", "-MF"}), "`-MF` needs a value");
+  EXPECT_EQ(usage_message({"fmt", "a.sdl", "-MD"}), "`-MD` is not an option of `fmt`");
+  EXPECT_EQ(usage_message({"check", "a.sdl", "-MD"}),
+            "`-MD` needs `-MF FILE` when no output is named");
+  EXPECT_EQ(usage_message({"check", "a.sdl", "-MD", "-MF", "d"}),
+            "`-MD` needs `-MT TARGET` when no output is named");
+  EXPECT_THAT(usage_message({"a.sdl", "-MX"}), HasSubstr("unknown option `-MX`"));
+}
+
+TEST(Cli, DenyTakesLintsOnly) {
+  EXPECT_TRUE(options_from({"a.sdl", "--deny", "L0301", "--deny=no-light"})
+                  .denials.cover(DiagnosticKind::no_light));
+  EXPECT_EQ(usage_message({"a.sdl", "--deny", "no-ligth"}),
+            "`--deny` is `no-ligth`; needs `warnings` or the code or name of a lint; did you mean "
+            "`no-light`?");
+}
+
 }  // namespace
 }  // namespace scenec::runtime
