@@ -29,7 +29,7 @@ std::optional<FileContent> read_asset(const ir::Asset& asset, FileSystem& files,
   if (content) return std::move(content).value();
   report.diagnostics.emplace_back(
       DiagnosticKind::file_unreadable, asset.span,
-      asset.path + " cannot be read: " + std::string(text_of(content.error())));
+      asset.path + " cannot be read: " + files.reason_of(content.error()));
   return std::nullopt;
 }
 

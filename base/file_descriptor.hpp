@@ -1,5 +1,5 @@
-// An open file of the system, and the one way its bytes are read: for the file systems, which differ
-// in how they open.
+// An open file of the system, and the one way its bytes are read: for the file systems, which
+// differ in how they open.
 #pragma once
 
 #include <unistd.h>

@@ -97,7 +97,7 @@ RootedFileSystem::RootedFileSystem(const std::string& root, Walk walk)
   const std::string real = std::filesystem::canonical(root, ignored).string();
   if (!real.empty() && real != names_.front()) names_.push_back(real);
   const auto below = find_beneath(names_.front(), working_directory_);
-  shown_root_ = below ? normalized_path(*below) : names_.front();
+  shown_root_ = normalized_path(below ? *below : root);
 }
 
 bool RootedFileSystem::is_permitted(const std::string& path) const {
@@ -140,7 +140,7 @@ Result<Descriptor, FileError> RootedFileSystem::open_by_name(std::string_view pa
       continue;
     }
     Descriptor entry(::openat(here(), name.c_str(), look_flags | O_NOFOLLOW));
-    struct stat info{};
+    struct stat info {};
     if (!entry.valid() || ::fstat(entry.number(), &info) != 0) return Failure{file_error_of(errno)};
     if (S_ISLNK(info.st_mode)) {
       if (++links > most_links) return Failure{FileError::not_found};
@@ -183,7 +183,7 @@ Result<FileContent, FileError> RootedFileSystem::read(const std::string& path,
 bool RootedFileSystem::is_file(const std::string& path) {
   if (is_permitted(path)) return disk_.is_file(path);
   const auto file = open(path, Purpose::look);
-  struct stat info{};
+  struct stat info {};
   return file && ::fstat(file.value().number(), &info) == 0 && S_ISREG(info.st_mode);
 }
 

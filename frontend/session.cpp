@@ -93,14 +93,27 @@ std::string Session::resolved_path(std::string_view path, FileId file) const {
   return joined_path(directory_of(sources.path(sources.resolve({file, 0, 0}).file)), path);
 }
 
+void Session::unreadable(const std::string& path, FileError reason, Span span) {
+  // The course translation may have said it already, with the places it tried.
+  const std::vector<Diagnostic> said = sink.sorted();
+  const auto is_same = [&](const Diagnostic& diagnostic) {
+    return diagnostic.kind == DiagnosticKind::course_missing_file &&
+           diagnostic.span == sources.resolve(span);
+  };
+  if (std::any_of(said.begin(), said.end(), is_same)) return;
+  const bool outside = reason == FileError::outside_root;
+  error(outside ? DiagnosticKind::file_outside_root : DiagnosticKind::file_unreadable, span,
+        fmt::format("cannot read {}: {}{}", quoted_string(path), outside ? "it " : "",
+                    files.reason_of(reason)));
+}
+
 ir::AssetId Session::asset(std::string_view path, FileId file, Span span) {
   const std::string resolved = resolved_path(path, file);
   const auto [place, added] = assets_.try_emplace(resolved);
   if (!added && place->second.valid()) return place->second;
   auto content = files.read(resolved, max_asset_bytes);
   if (!content) {
-    error(DiagnosticKind::file_unreadable, span,
-          fmt::format("cannot read {}: {}", quoted_string(resolved), text_of(content.error())));
+    unreadable(resolved, content.error(), span);
     return {};
   }
   place->second = builder.add_asset({resolved, hash_bytes(content.value().bytes), span});

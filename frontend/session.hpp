@@ -98,6 +98,8 @@ class Session {
   // ---- files
   // The asset a path written in `file` names; invalid (reported at `span`) when it cannot be read.
   ir::AssetId asset(std::string_view path, FileId file, Span span);
+  // Says at `span` why the file could not be read.
+  void unreadable(const std::string& path, FileError reason, Span span);
   // `path` as the file system opens it, seen from the file that names it.
   [[nodiscard]] std::string resolved_path(std::string_view path, FileId file) const;
 

@@ -80,6 +80,13 @@ Problem store_path(std::string& target, std::string_view text) {
   return std::nullopt;
 }
 
+Problem store_root(Options& options, std::string_view text) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(text, ignored)) return "the name of a directory";
+  options.root = text;
+  return std::nullopt;
+}
+
 using Text = std::string_view;
 constexpr std::array option_table{
     OptionRow{"-o,--output", "FILE", "where to write (render: .png, .exr or .bmp)", writing,
@@ -133,6 +140,7 @@ constexpr std::array option_table{
                 constexpr std::array<Text, 3> names{"tree", "ast", "ir"};
                 return store_choice<DumpStage>(o.stage, v, names);
               }},
+    OptionRow{"--root", "DIR", "read files beneath this directory only", diagnosing, store_root},
     OptionRow{"--max-items", "N", "limit of placed items (default 2000000)", compiling,
               [](Options& o, Text v) {
                 return store_parsed(o.max_items, parse_whole_number(v, 1, largest_item_limit));

@@ -43,6 +43,7 @@ struct Options {
   bool half = false;
 
   // What does not.
+  std::string root;  // empty: where the scene lies (runtime/root.hpp)
   std::optional<std::int64_t> max_items;
   std::optional<std::int64_t> threads;
   bool stamp = false;

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/render_diagnostic.hpp"
+#include "runtime/root.hpp"
 #include "runtime/dependencies.hpp"
 #include "runtime/output.hpp"
 
@@ -56,7 +57,10 @@ Session::Session(const Options& options)
     : options_(options),
       compile_options_(compile_options_of(options)),
       scene_path_(path_from_working_directory(options.operands.at(0))),
-      files_(disk_) {}
+      disk_(root_of(options, scene_path_)),
+      files_(disk_) {
+  disk_.permit(scene_path_);
+}
 
 std::optional<frontend::LoadedFile> Session::load(
     const std::optional<std::string>& output_directory) {

@@ -8,6 +8,7 @@
 
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
+#include "base/rooted_file_system.hpp"
 #include "base/source_map.hpp"
 #include "frontend/compile.hpp"
 #include "ir/scene.hpp"
@@ -56,7 +57,7 @@ class Session {
   std::string scene_path_;
   bool loaded_ = false;
   bool scene_unreadable_ = false;
-  RealFileSystem disk_;
+  RootedFileSystem disk_;
   RecordingFileSystem files_;
   SourceMap sources_;
   DiagnosticSink sink_;

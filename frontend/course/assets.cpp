@@ -112,11 +112,21 @@ std::string find_asset(Context& context, std::string_view name, Span where) {
   Diagnostic diagnostic(DiagnosticKind::course_missing_file, where,
                         fmt::format("there is no file `{}`", printable(name)));
   std::string tried;
+  std::string refused;
   for (std::size_t i = 0; i < std::size(places); ++i) {
     if (i > 0 && (places[i] == places[i - 1] || places[i] == places[0])) continue;
-    tried += fmt::format("{}`{}`", tried.empty() ? "" : ", ", printable(places[i]));
+    const auto content = context.files.read(places[i], 0);
+    const bool outside = !content && content.error() == FileError::outside_root;
+    std::string& list = outside ? refused : tried;
+    list += fmt::format("{}`{}`", list.empty() ? "" : ", ", printable(places[i]));
   }
-  context.sink.report(std::move(diagnostic).note("tried " + tried));
+  if (!tried.empty()) diagnostic.notes.push_back({"tried " + tried, {}});
+  if (!refused.empty()) {
+    diagnostic.notes.push_back(
+        {fmt::format("not tried: {} {}", refused, context.files.reason_of(FileError::outside_root)),
+         {}});
+  }
+  context.sink.report(std::move(diagnostic));
   return places[0];
 }
 

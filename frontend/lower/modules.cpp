@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
 #include "base/text.hpp"
 #include "frontend/lower/lowering.hpp"
+#include "frontend/lower/std_library.hpp"
 #include "grammar/parse.hpp"
 
 namespace scenec::frontend {
@@ -15,31 +19,60 @@ namespace {
 constexpr std::size_t max_include_depth = 64;
 constexpr std::size_t max_include_files = 4096;
 constexpr std::uint64_t max_include_bytes = std::uint64_t{512} << 20;
-constexpr std::string_view library_prefix = "std:";
 }  // namespace
 
-std::unique_ptr<grammar::SyntaxTree> Modules::read(const std::string& path, NodeRef use) {
-  auto content = session_.files.read(path, max_include_bytes);
+Modules::Place Modules::place_of(const std::string& written, FileId from) const {
+  const bool from_library = library_texts_.contains(from);
+  if (!from_library && !written.starts_with(library_prefix)) {
+    return {false, session_.resolved_path(written, from)};
+  }
+  // The extension belongs to the name of a file, which a relative include gives.
+  std::string path = written;
+  if (!written.starts_with(library_prefix)) {
+    path = std::string(library_prefix) + normalized_path(written);
+  } else if (!written.ends_with(library_extension)) {
+    path += library_extension;
+  }
+  return {true, std::move(path)};
+}
+
+std::unique_ptr<grammar::SyntaxTree> Modules::read_library(const std::string& path, NodeRef use) {
+  const std::optional<std::string_view> text = find_library(path);
+  if (!text) {
+    std::string_view name = path;
+    if (name.ends_with(library_extension)) name.remove_suffix(library_extension.size());
+    const std::vector<std::string> names = library_names();
+    const std::vector<std::string_view> legal(names.begin(), names.end());
+    session_.error(unknown_word(DiagnosticKind::unknown_library, use.span(),
+                                fmt::format("there is no library {}", quoted_string(name)), name,
+                                legal, "libraries"));
+    return nullptr;
+  }
+  const FileId file = session_.sources.add(path, *text, nullptr);
+  library_texts_.insert(file);
+  return std::make_unique<grammar::SyntaxTree>(grammar::parse_sdl(file, *text, session_.sink));
+}
+
+std::unique_ptr<grammar::SyntaxTree> Modules::read(const Place& place, NodeRef use) {
+  if (place.in_library) return read_library(place.path, use);
+  auto content = session_.files.read(place.path, max_include_bytes);
   if (!content) {
-    session_.error(
-        DiagnosticKind::file_unreadable, use.span(),
-        fmt::format("cannot read {}: {}", quoted_string(path), text_of(content.error())));
+    session_.unreadable(place.path, content.error(), use.span());
     return nullptr;
   }
   const std::string_view text = content.value().bytes;
-  const FileId file = session_.sources.add(path, text, content.value().owner);
+  const FileId file = session_.sources.add(place.path, text, content.value().owner);
   return std::make_unique<grammar::SyntaxTree>(grammar::parse_sdl(file, text, session_.sink));
 }
 
 std::shared_ptr<Scope> Modules::load(const std::string& written, NodeRef use) {
-  const bool library = written.starts_with(library_prefix);
-  const std::string path = library ? written : session_.resolved_path(written, use.span().file);
-  const auto [place, added] = modules_.try_emplace(path);
-  Module& module = place->second;
+  const Place place = place_of(written, use.span().file);
+  const auto [entry, added] = modules_.try_emplace(place);
+  Module& module = entry->second;
   if (!added) {
     if (module.loading)
       session_.error(DiagnosticKind::recursive_call, use.span(),
-                     fmt::format("{} includes itself", quoted_string(path)));
+                     fmt::format("{} includes itself", quoted_string(place.path)));
     return module.loading ? nullptr : module.scope;
   }
   if (open_.size() >= max_include_depth || modules_.size() > max_include_files) {
@@ -50,7 +83,7 @@ std::shared_ptr<Scope> Modules::load(const std::string& written, NodeRef use) {
     module.loading = false;
     return nullptr;
   }
-  module.tree = read(path, use);
+  module.tree = read(place, use);
   if (module.tree == nullptr) {
     module.loading = false;
     return nullptr;

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,9 +22,9 @@ class Modules {
  public:
   Modules(Lowering& lowering, Session& session) : lowering_(lowering), session_(session) {}
 
-  // The declarations of an included file; nullptr (reported at `use`) when it cannot be read or
-  // includes itself.
-  std::shared_ptr<Scope> load(const std::string& path, grammar::NodeRef use);
+  // The declarations of the file included as `written`; nullptr (reported at `use`) when it cannot
+  // be read or includes itself.
+  std::shared_ptr<Scope> load(const std::string& written, grammar::NodeRef use);
   // The expression behind `-D name=`; empty (reported) when it is none.
   grammar::NodeRef parse_setting(const ParamSetting& setting);
   [[nodiscard]] grammar::NodeRef setting_expression(std::string_view name) const;
@@ -34,11 +35,20 @@ class Modules {
     std::shared_ptr<Scope> scope;
     bool loading = true;
   };
-  std::unique_ptr<grammar::SyntaxTree> read(const std::string& path, grammar::NodeRef use);
+  // Where an included text comes from. A library includes its neighbours by relative names.
+  struct Place {
+    bool in_library = false;
+    std::string path;  // `std:NAME.sdl`, or as the file system opens it
+    auto operator<=>(const Place&) const = default;
+  };
+  [[nodiscard]] Place place_of(const std::string& written, FileId from) const;
+  std::unique_ptr<grammar::SyntaxTree> read(const Place& place, grammar::NodeRef use);
+  std::unique_ptr<grammar::SyntaxTree> read_library(const std::string& path, grammar::NodeRef use);
 
   Lowering& lowering_;
   Session& session_;
-  std::map<std::string, Module> modules_;
+  std::map<Place, Module> modules_;
+  std::set<FileId> library_texts_;
   std::vector<Span> open_;  // the includes being loaded, outermost first
   std::map<std::string, std::unique_ptr<grammar::SyntaxTree>, std::less<>> settings_;
 };

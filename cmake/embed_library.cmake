@@ -1,0 +1,17 @@
+# Writes the libraries of stdlib-scenes as a C++ file: they are part of the program.
+#   cmake -D OUTPUT=<file.cpp> -D "LIBRARIES=<a.sdl>;<b.sdl>..." -P embed_library.cmake
+set(code "#include \"frontend/lower/std_library.hpp\"\n\n")
+string(APPEND code "namespace scenec::frontend {\n\nnamespace {\n")
+string(APPEND code "constexpr LibraryFile files[] = {\n")
+foreach(library IN LISTS LIBRARIES)
+  get_filename_component(name "${library}" NAME_WE)
+  file(READ "${library}" text)
+  if(text MATCHES "\\)scenec\"")
+    message(FATAL_ERROR "${library} holds the text that ends a raw string")
+  endif()
+  string(APPEND code "    {\"${name}\", R\"scenec(${text})scenec\"},\n")
+endforeach()
+string(APPEND code "};\n}  // namespace\n\n")
+string(APPEND code "std::span<const LibraryFile> library_files() {\n  return files;\n}\n\n")
+string(APPEND code "}  // namespace scenec::frontend\n")
+file(WRITE "${OUTPUT}" "${code}")
