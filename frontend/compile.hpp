@@ -16,17 +16,30 @@
 
 namespace scenec::frontend {
 
-// `-D name=value`: a constant expression of the parameter's type; for a string the raw text.
+// `-D name=value`, or an entry of a file of parameters: a constant expression of the parameter's
+// type; for a string the raw text.
 struct ParamSetting {
   std::string name;
   std::string value;
+  bool is_text = true;        // false: only an expression, no text of a `string` param
+  std::string quoted = {};    // a list for params that are lists of strings; empty: `value`
+  std::string source = "-D";  // how messages name the place of `value`
+  Span span = {};             // of the name, when it stands in a file
+};
+
+// One frame of a sequence: the `@clock` param is its low end plus number / per_second seconds.
+struct Frame {
+  std::int64_t number = 0;
+  std::int64_t last = 0;  // of the sequence: a clock that ends before it is an error at once
+  std::int64_t per_second = 24;
 };
 
 struct CompileOptions {
   std::optional<grammar::Dialect> dialect;  // none: by grammar::dialect_of
-  std::vector<ParamSetting> params;
-  std::optional<ir::Method> method;  // course only: replaces the method found by vocabulary
-  bool library = false;              // accept a file of declarations alone
+  std::vector<ParamSetting> params;         // of two with one name the later one counts
+  std::optional<Frame> frame;               // none: the clock is its default
+  std::optional<ir::Method> method;         // course only: replaces the method found by vocabulary
+  bool library = false;                     // accept a file of declarations alone
   std::uint64_t max_items = 2'000'000;
 };
 

@@ -46,12 +46,6 @@ std::variant<VerbChoice, UsageError> choose_verb(const std::vector<std::string>&
                             quoted_list(names))};
 }
 
-std::vector<std::string_view> names_of(const OptionRow& row) {
-  const std::size_t comma = row.names.find(',');
-  if (comma == std::string_view::npos) return {row.names};
-  return {row.names.substr(0, comma), row.names.substr(comma + 1)};
-}
-
 // CLI11 takes names of one letter, or of several behind two dashes: `-MF x` is `--MF x` to it.
 constexpr std::array<std::string_view, 4> make_options{"-MD", "-MF", "-MT", "-MP"};
 
@@ -120,7 +114,11 @@ std::variant<std::vector<std::string>, UsageError> operands_of(
 
 std::optional<UsageError> find_operand_problem(const Options& options) {
   const VerbInfo& verb = info_of(options.verb);
-  const bool needs_one = !verb.operands.starts_with('[') && !options.list;
+  const bool takes_none = verb.operands.empty();
+  if (takes_none && !options.operands.empty()) {
+    return UsageError{fmt::format("`{}` takes no `{}`", verb.name, printable(options.operands[0]))};
+  }
+  const bool needs_one = !takes_none && !verb.operands.starts_with('[') && !options.list;
   const bool takes_many = verb.operands.ends_with("...");
   if (options.operands.size() > 1 && !takes_many) {
     return UsageError{fmt::format("`{}` takes one {} at a time; `{}` is a second one", verb.name,
@@ -129,9 +127,10 @@ std::optional<UsageError> find_operand_problem(const Options& options) {
   }
   if (needs_one && options.operands.empty()) {
     return UsageError{fmt::format("`{}` needs {}", verb.name,
-                                  verb.operands == "SCENE" ? "the name of a scene file"
-                                  : takes_many             ? "the name of a file, or `-`"
-                                                           : "the code or name of a diagnostic")};
+                                  verb.operands == "SCENE"   ? "the name of a scene file"
+                                  : takes_many               ? "the name of a file, or `-`"
+                                  : verb.operands == "SHELL" ? "`bash`, `zsh` or `fish`"
+                                                             : "the code or name of a diagnostic")};
   }
   if (verb.operands == "SCENE" && options.operands[0] == "-") {
     return UsageError{"a scene is read from a file, not from standard input"};
@@ -209,6 +208,7 @@ CommandLine parse_words(Verb verb, std::vector<std::string> words) {
   }
   if (auto problem = find_operand_problem(options)) return *problem;
   if (auto problem = find_dependency_problem(options)) return UsageError{*std::move(problem)};
+  if (auto problem = find_frame_problem(options)) return UsageError{*std::move(problem)};
   return options;
 }
 

@@ -118,6 +118,15 @@ constexpr std::array option_table{
               [](Options& o, Text v) { return store_parsed(o.region, parse_region(v)); }},
     OptionRow{"-D", "NAME=VALUE", "set a parameter of the scene; may be repeated", compiling,
               store_setting, ValueNeed::required, Repeat::many},
+    OptionRow{"--params", "FILE", "set parameters from a JSON object; -D wins", compiling,
+              [](Options& o, Text v) { return store_path(o.params_file, v); }},
+    OptionRow{"--frames", "a..b", "render these frames, setting the `@clock` parameter for each",
+              render_only,
+              [](Options& o, Text v) { return store_parsed(o.frames, parse_frames(v)); }},
+    OptionRow{"--fps", "N", "frames a second of --frames (default 24)", render_only,
+              [](Options& o, Text v) {
+                return store_parsed(o.frame_rate, parse_whole_number(v, 1, largest_frame_rate));
+              }},
     OptionRow{"--dialect", "NAME", "sdl or course; else decided by the file", reading,
               [](Options& o, Text v) {
                 constexpr std::array<Text, 2> names{"sdl", "course"};
@@ -255,6 +264,10 @@ std::string picture_command(const Options& options) {
   std::sort(settings.begin(), settings.end(),
             [](const NameAndValue& a, const NameAndValue& b) { return a.name < b.name; });
   for (const NameAndValue& setting : settings) add("-D", setting.name + "=" + setting.value);
+  if (options.frame) {
+    add("--frames", fmt::format("{0}..{0}", *options.frame));
+    if (options.frame_rate) add("--fps", std::to_string(*options.frame_rate));
+  }
   if (options.dialect) {
     add("--dialect", *options.dialect == grammar::Dialect::sdl ? "sdl" : "course");
   }

@@ -15,6 +15,7 @@
 #include "ir/render_settings.hpp"
 #include "runtime/denials.hpp"
 #include "runtime/environment.hpp"
+#include "runtime/frames.hpp"
 #include "runtime/option_values.hpp"
 #include "runtime/verbs.hpp"
 
@@ -39,6 +40,10 @@ struct Options {
   std::optional<std::string> camera;
   std::optional<ir::Region> region;
   std::vector<NameAndValue> settings;  // -D
+  std::string params_file;             // --params
+  std::optional<FrameRange> frames;
+  std::optional<std::int64_t> frame_rate;  // --fps
+  std::optional<std::int64_t> frame;       // the one of `frames` that is being made
   std::optional<grammar::Dialect> dialect;
   bool half = false;
 

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "base/render_diagnostic.hpp"
-#include "runtime/root.hpp"
 #include "runtime/dependencies.hpp"
 #include "runtime/output.hpp"
+#include "runtime/params_file.hpp"
+#include "runtime/root.hpp"
 
 namespace scenec::runtime {
 
@@ -30,7 +32,12 @@ frontend::CompileOptions compile_options_of(const Options& options) {
   result.library = options.verb != Verb::render;
   if (options.max_items) result.max_items = static_cast<std::uint64_t>(*options.max_items);
   for (const NameAndValue& setting : options.settings) {
-    result.params.push_back({setting.name, setting.value});
+    result.params.push_back({.name = setting.name, .value = setting.value});
+  }
+  if (options.frames) {
+    result.frame = {.number = options.frame.value_or(options.frames->first),
+                    .last = options.frames->last,
+                    .per_second = options.frame_rate.value_or(default_frame_rate)};
   }
   return result;
 }
@@ -43,12 +50,18 @@ bool is_error(const Finding& finding) {
   return finding.severity == Severity::error;
 }
 
-// A mistake in `-D` is a mistake of the command line, although the compiler finds it: the parameter
-// does not exist, or the error lies in the text behind the name, which is a file of its own.
+// A mistake in `-D`, `--params` or `--frames` is a mistake of the command line, although the
+// compiler finds it: the parameter does not exist, the file of parameters is broken, the clock has
+// no such frame, or the error lies in the text behind a name, which is a file of its own.
 bool is_usage_mistake(const Diagnostic& diagnostic, const SourceMap& sources) {
   if (info_of(diagnostic.kind).severity != Severity::error) return false;
-  if (diagnostic.kind == DiagnosticKind::unknown_param) return true;
-  return diagnostic.span.valid() && sources.path(diagnostic.span.file).starts_with("-D ");
+  using enum DiagnosticKind;
+  constexpr std::array of_options{unknown_param, params_file, clock_missing, clock_frames};
+  if (std::find(of_options.begin(), of_options.end(), diagnostic.kind) != of_options.end())
+    return true;
+  if (!diagnostic.span.valid()) return false;
+  const std::string_view path = sources.path(diagnostic.span.file);
+  return path.starts_with("-D ") || path.starts_with("--params ");
 }
 
 }  // namespace
@@ -60,15 +73,46 @@ Session::Session(const Options& options)
       disk_(root_of(options, scene_path_)),
       files_(disk_) {
   disk_.permit(scene_path_);
+  if (!options.params_file.empty()) disk_.permit(options.params_file);
 }
 
 std::optional<frontend::LoadedFile> Session::load(
     const std::optional<std::string>& output_directory) {
+  if (!load_params()) return std::nullopt;
   auto file =
       frontend::load(scene_path_, compile_options_, files_, sources_, sink_, output_directory);
   loaded_ = true;
   scene_unreadable_ = !file.has_value();
   return file;
+}
+
+bool Session::load_params() {
+  if (options_.params_file.empty()) return true;
+  auto read = read_params_file(options_.params_file, files_, sources_, sink_);
+  if (!read) {
+    loaded_ = true;  // as far as it goes: the file of parameters is what a rule for make waits for
+    return false;
+  }
+  // Those of the command line come behind and win.
+  auto& params = compile_options_.params;
+  params.insert(params.begin(), std::make_move_iterator(read->begin()),
+                std::make_move_iterator(read->end()));
+  return true;
+}
+
+std::vector<NameAndValue> Session::settings() const {
+  std::vector<NameAndValue> result;
+  for (const frontend::ParamSetting& param : compile_options_.params) {
+    const auto same = std::find_if(result.begin(), result.end(), [&](const NameAndValue& other) {
+      return other.name == param.name;
+    });
+    if (same == result.end()) {
+      result.push_back({param.name, param.value});
+    } else {
+      same->value = param.value;
+    }
+  }
+  return result;
 }
 
 std::optional<ir::Scene> Session::compile(const frontend::LoadedFile& file) {
@@ -152,7 +196,13 @@ void Session::print(const std::vector<Finding>& findings, const Environment& env
 
 ExitCode Session::finish(const Environment& environment) {
   const bool dependencies_written = write_dependencies();
-  const std::vector<Finding> all = findings();
+  std::vector<Finding> all = findings();
+  if (told_ != nullptr) {
+    std::erase_if(all, [&](const Finding& finding) {
+      return !is_error(finding) &&
+             !told_->insert(render_terminal(finding.diagnostic, sources_, {})).second;
+    });
+  }
   print(all, environment);
   if (!dependencies_written) return ExitCode::file_error;
   if (std::none_of(all.begin(), all.end(), is_error)) return ExitCode::ok;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ class Session {
       const std::optional<std::string>& output_directory = std::nullopt);
   [[nodiscard]] std::optional<ir::Scene> compile(const frontend::LoadedFile& file);
 
+  // What the command line and the file of parameters set, each param once.
+  [[nodiscard]] std::vector<NameAndValue> settings() const;
+
   // Whether one of the files read so far is the file `path` names, by whatever name.
   [[nodiscard]] bool has_read(const std::string& path) const;
 
@@ -44,17 +48,21 @@ class Session {
 
   // Writes the dependency file when one is asked for and a scene was loaded, prints what was found
   // and, for people, a line that counts; returns the exit code it calls for.
+  // Lints in `told` have been printed by another run and are left out; the others join them.
+  void leave_out(std::set<std::string>& told) { told_ = &told; }
   [[nodiscard]] ExitCode finish(const Environment& environment);
   // For what goes wrong after finish() has printed.
   void print_late(const Diagnostic& diagnostic, const Environment& environment) const;
 
  private:
+  [[nodiscard]] bool load_params();
   [[nodiscard]] bool write_dependencies();
   void print(const std::vector<Finding>& findings, const Environment& environment) const;
 
   const Options& options_;
   frontend::CompileOptions compile_options_;
   std::string scene_path_;
+  std::set<std::string>* told_ = nullptr;
   bool loaded_ = false;
   bool scene_unreadable_ = false;
   RootedFileSystem disk_;

@@ -82,9 +82,12 @@ std::optional<Value> Lowering::param_setting(std::string_view name, const TypeRe
   const auto setting = std::find_if(settings.rbegin(), settings.rend(),
                                     [&](const ParamSetting& s) { return s.name == name; });
   if (setting == settings.rend()) return std::nullopt;
-  if (type.type == Type::string && type.list_depth == 0)
+  const bool of_strings = type.type == Type::string;
+  if (of_strings && type.list_depth == 0 && setting->is_text)
     return make_string(setting->value, main_file_);
-  const NodeRef expression = modules_->parse_setting(*setting);
+  const bool quoted = of_strings && !setting->quoted.empty();
+  const NodeRef expression =
+      modules_->parse_setting(*setting, quoted ? setting->quoted : setting->value);
   if (!expression) return Value{};
   Scope nothing;
   const Need need{.subject = name, .function = {}, .node = expression};
@@ -105,7 +108,9 @@ void Lowering::declare_param(NodeRef node, Scope& scope) {
   }
   const bool settable = main_file_ == node.span().file && !session_.checking_only();
   if (type && settable) {
-    if (auto given = param_setting(parts.name.text(), *type)) {
+    if (auto now = clock_setting(node, scope)) {
+      value = *std::move(now);
+    } else if (auto given = param_setting(parts.name.text(), *type)) {
       const NodeRef written = modules_->setting_expression(parts.name.text());
       value = evaluator_.in_range(*given, parts.range, scope, parts.name.text(),
                                   written ? written.span() : parts.name.span());
@@ -122,7 +127,7 @@ void Lowering::report_unknown_settings(Scope& scope) {
   for (const ParamSetting& setting : session_.options.params) {
     if (std::find(names.begin(), names.end(), setting.name) != names.end()) continue;
     session_.report(
-        unknown_word(DiagnosticKind::unknown_param, {},
+        unknown_word(DiagnosticKind::unknown_param, setting.span,
                      fmt::format("the scene has no param `{}`", printable(setting.name)),
                      setting.name, names, "params"));
   }
@@ -151,6 +156,7 @@ void Lowering::declare_proto(NodeRef node, Scope& scope, const Surroundings& aro
   ir::Proto proto;
   if (parts.block) {
     Scope inside(&scope);
+    proto_gaps_.begin();
     items(parts.block, inside,
           {.transform = {}, .material = {}, .items = &proto.items, .in_proto = true});
     close(inside);
@@ -158,8 +164,10 @@ void Lowering::declare_proto(NodeRef node, Scope& scope, const Surroundings& aro
   Value value = make_unknown(Type::proto);
   if (!session_.checking_only()) {
     const ir::NameId name = session_.builder.add_name(parts.name.text());
-    value = make_proto(
-        session_.builder.add_proto(std::move(proto), {name, session_.add_origin(node.span())}));
+    const ir::ProtoId id =
+        session_.builder.add_proto(std::move(proto), {name, session_.add_origin(node.span())});
+    proto_gaps_.finish(id);
+    value = make_proto(id);
   }
   declare(scope, parts.name, BindingKind::proto, std::move(value), node);
 }

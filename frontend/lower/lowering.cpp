@@ -62,6 +62,7 @@ void Lowering::lower_scene(const grammar::SyntaxTree& tree) {
   Scope scope;
   items(tree.root(), scope, {});
   report_unknown_settings(scope);
+  report_missing_clock(tree, scope);
   const bool scene = notes_.first_placed.valid() || notes_.first_camera.valid();
   if (scene) close(scope);
   if (session_.sink.has_errors()) return;  // a name misspelt elsewhere is not unused

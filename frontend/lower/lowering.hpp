@@ -74,6 +74,10 @@ class Lowering final : public FieldCollector {
   void close(Scope& scope);
   [[nodiscard]] std::optional<Value> param_setting(std::string_view name, const TypeRef& type);
   void report_unknown_settings(Scope& scope);
+  // The value of the `@clock` param `node` in the frame asked for, if one is.
+  [[nodiscard]] std::optional<Value> clock_setting(NodeRef node, Scope& scope);
+  [[nodiscard]] Value clock_in_frame(const ast::Item& parts, const Frame& frame, Scope& scope);
+  void report_missing_clock(const grammar::SyntaxTree& tree, Scope& scope);
 
   // placed things
   void shape(NodeRef node, Scope& scope, const Surroundings& around);
@@ -112,6 +116,7 @@ class Lowering final : public FieldCollector {
   std::size_t field_depth_ = 0;
   int running_ = 0;
   FileId main_file_;
+  Span clock_;  // name of the `@clock` param; invalid: none
   SceneNotes notes_;
   ir::RenderSettings render_;
   ir::OriginId render_origin_;

@@ -96,11 +96,11 @@ std::shared_ptr<Scope> Modules::load(const std::string& written, NodeRef use) {
   return module.scope;
 }
 
-NodeRef Modules::parse_setting(const ParamSetting& setting) {
+NodeRef Modules::parse_setting(const ParamSetting& setting, const std::string& text) {
   auto& tree = settings_[setting.name];
   const std::size_t before = session_.sink.error_count();
-  const FileId file = session_.sources.add("-D " + printable(setting.name),
-                                           fmt::format("sdl 1;\nlet value = {};\n", setting.value));
+  const FileId file = session_.sources.add(setting.source + " " + printable(setting.name),
+                                           fmt::format("sdl 1;\nlet value = {};\n", text));
   tree = std::make_unique<grammar::SyntaxTree>(
       grammar::parse_sdl(file, session_.sources.text(file), session_.sink));
   const NodeRef expression = setting_expression(setting.name);

@@ -1,5 +1,5 @@
-// Included files and the values of `-D`: texts besides the scene's own, each parsed once and kept
-// alive as long as names refer to them.
+// Included files and the values of `-D` and `--params`: texts besides the scene's own, each parsed
+// once and kept alive as long as names refer to them.
 #pragma once
 
 #include <map>
@@ -25,8 +25,8 @@ class Modules {
   // The declarations of the file included as `written`; nullptr (reported at `use`) when it cannot
   // be read or includes itself.
   std::shared_ptr<Scope> load(const std::string& written, grammar::NodeRef use);
-  // The expression behind `-D name=`; empty (reported) when it is none.
-  grammar::NodeRef parse_setting(const ParamSetting& setting);
+  // The expression `text`, the value of the setting; empty (reported) when it is none.
+  grammar::NodeRef parse_setting(const ParamSetting& setting, const std::string& text);
   [[nodiscard]] grammar::NodeRef setting_expression(std::string_view name) const;
 
  private:

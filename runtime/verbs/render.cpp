@@ -6,7 +6,9 @@
 #include <chrono>
 #include <ctime>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "backend/backend.hpp"
@@ -109,18 +111,27 @@ ProgressStyle progress_style_of(const Options& options) {
   return is_default && !for_people ? ProgressStyle::none : options.progress;
 }
 
+// What the runs of one `--frames` share.
+struct Sequence {
+  std::vector<std::string> unguarded;  // outputs that have not been compared with the inputs
+  std::set<std::string> told;          // lints that have been printed
+};
+
 class RenderRun {
  public:
-  RenderRun(const Options& options, const Environment& environment)
+  RenderRun(const Options& options, const Environment& environment, Sequence& sequence)
       : options_(options),
         environment_(environment),
         signals_(environment.handle_signals ? SignalWatch::Mode::watch : SignalWatch::Mode::ignore),
+        sequence_(sequence),
         session_(options),
         output_(output_of(options)),
         is_one_document_(options.diagnostics == DiagnosticsForm::sarif),
         progress_(progress_style_of(options)),
         clock_(stats_),
-        pool_(static_cast<unsigned>(options.threads.value_or(0))) {}
+        pool_(static_cast<unsigned>(options.threads.value_or(0))) {
+    session_.leave_out(sequence.told);
+  }
 
   ExitCode run() {
     const auto format = check_picture_output(output_, session_.sink());
@@ -139,7 +150,7 @@ class RenderRun {
         backend::prepare(*scene, session_.files(), pool_, session_.sink());
     clock_.finish("prepare");
     if (!prepared) return session_.finish(environment_);
-    if (!check_output_is_no_input(output_, session_)) return refuse_output();
+    if (!outputs_are_no_inputs()) return refuse_output();
     if (session_.has_errors()) return session_.finish(environment_);
     if (is_one_document_) return render_then_finish(*scene, *settings, *prepared, *format);
     // Lints before the long wait.
@@ -148,6 +159,14 @@ class RenderRun {
   }
 
  private:
+  // The outputs of later frames count from the first frame on.
+  bool outputs_are_no_inputs() {
+    bool sound = check_output_is_no_input(output_, session_);
+    for (const std::string& output : std::exchange(sequence_.unguarded, {}))
+      sound = check_output_is_no_input(output, session_) && sound;
+    return sound;
+  }
+
   ExitCode refuse_output() {
     static_cast<void>(session_.finish(environment_));
     return ExitCode::file_error;
@@ -181,8 +200,10 @@ class RenderRun {
       environment_.err << "scenec: stopped before the first sample; nothing written\n";
       return exit_code();
     }
+    Options told = options_;
+    told.settings = session_.settings();  // those of the file of parameters too
     const std::string bytes = backend::encode(
-        picture, settings, format, encode_options(options_, scene, settings, picture, pool_));
+        picture, settings, format, encode_options(told, scene, settings, picture, pool_));
     if (const auto problem = write_file(output_, bytes)) return *problem;
     clock_.finish("write");
     if (progress_ != ProgressStyle::none && progress_ != ProgressStyle::json) {
@@ -227,6 +248,7 @@ class RenderRun {
   const Options& options_;
   const Environment& environment_;
   SignalWatch signals_;  // before the pool: its threads inherit the blocked signals
+  Sequence& sequence_;
   Session session_;
   std::string output_;
   bool is_one_document_;
@@ -236,10 +258,34 @@ class RenderRun {
   ThreadPool pool_;
 };
 
+// Whether the files of all frames can be written (else reported and printed).
+bool frames_are_writable(const Options& options, Sequence& sequence,
+                         const Environment& environment) {
+  Session session(options);
+  for (std::int64_t frame = options.frames->first; frame <= options.frames->last; ++frame) {
+    const Options one = options_in_frame(options, frame);
+    static_cast<void>(check_picture_output(one.output, session.sink()));
+    if (!one.stats_file.empty()) check_output(one.stats_file, session.sink());
+    check_outputs(one, session.sink());
+    sequence.unguarded.push_back(one.output);
+  }
+  if (!session.sink().has_errors()) return true;
+  static_cast<void>(session.finish(environment));
+  return false;
+}
+
 }  // namespace
 
 ExitCode verbs::render(const Options& options, const Environment& environment) {
-  return RenderRun(options, environment).run();
+  Sequence sequence;
+  if (!options.frames) return RenderRun(options, environment, sequence).run();
+  if (!frames_are_writable(options, sequence, environment)) return ExitCode::file_error;
+  for (std::int64_t frame = options.frames->first; frame <= options.frames->last; ++frame) {
+    const Options one = options_in_frame(options, frame);
+    const ExitCode code = RenderRun(one, environment, sequence).run();
+    if (code != ExitCode::ok) return code;
+  }
+  return ExitCode::ok;
 }
 
 }  // namespace scenec::runtime
