@@ -156,7 +156,6 @@ void Lowering::declare_proto(NodeRef node, Scope& scope, const Surroundings& aro
   ir::Proto proto;
   if (parts.block) {
     Scope inside(&scope);
-    proto_gaps_.begin();
     items(parts.block, inside,
           {.transform = {}, .material = {}, .items = &proto.items, .in_proto = true});
     close(inside);
@@ -164,10 +163,8 @@ void Lowering::declare_proto(NodeRef node, Scope& scope, const Surroundings& aro
   Value value = make_unknown(Type::proto);
   if (!session_.checking_only()) {
     const ir::NameId name = session_.builder.add_name(parts.name.text());
-    const ir::ProtoId id =
-        session_.builder.add_proto(std::move(proto), {name, session_.add_origin(node.span())});
-    proto_gaps_.finish(id);
-    value = make_proto(id);
+    value = make_proto(
+        session_.builder.add_proto(std::move(proto), {name, session_.add_origin(node.span())}));
   }
   declare(scope, parts.name, BindingKind::proto, std::move(value), node);
 }

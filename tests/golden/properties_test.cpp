@@ -45,7 +45,7 @@ std::optional<Compiled> compile(scenec::FileSystem& files, const std::string& pa
   scenec::SourceMap sources;
   scenec::DiagnosticSink sink;
   const scenec::frontend::CompileOptions options{
-      .dialect = {}, .params = {}, .method = {}, .library = true};
+      .dialect = {}, .params = {}, .frame = {}, .method = {}, .library = true};
   const auto scene = scenec::frontend::compile(path, options, files, sources, sink);
   if (!scene || scene->cameras.empty()) return std::nullopt;  // a library dumps as nothing
   return Compiled{scene->hash.hex(), scenec::ir::dump_text(*scene, {})};
