@@ -34,13 +34,34 @@ ir::TransformId Lowering::transform_for(const std::optional<ir::Transform>& own,
   return session_.builder.add_transform(product);
 }
 
-ir::MaterialId Lowering::material_for(ir::MaterialId own, bool written, const Surroundings& around,
-                                      Span span) {
-  if (own.valid()) return own;
-  if (around.material.valid()) return around.material;
-  if (!written && !session_.is_allowed(DiagnosticKind::default_material)) {
-    if (notes_.bare_count++ == 0) notes_.first_bare = span;
+void Lowering::note_gap(const Surroundings& around, Span lint) {
+  if (around.in_proto) {
+    proto_gaps_.add(around.items->size(), lint);
+  } else if (lint.valid()) {
+    if (notes_.bare_count++ == 0) notes_.first_bare = lint;
   }
+}
+
+template <class T>
+void Lowering::fill_material(T& shape, ir::Item& item, const Surroundings& around, Span span) {
+  const bool allowed = session_.is_allowed(DiagnosticKind::default_material);
+  if constexpr (std::same_as<T, ir::Instance>) {
+    // An instance keeps the materials of its proto; only gaps are filled.
+    if (!proto_gaps_.any(shape.of)) return;
+    if (around.material.valid()) {
+      shape.of = proto_gaps_.filled(shape.of, around.material);
+    } else {
+      note_gap(around, allowed ? Span{} : proto_gaps_.lint(shape.of));
+    }
+  } else {
+    item.material = around.material;
+    if (item.material.valid()) return;
+    note_gap(around, allowed ? Span{} : span);
+    item.material = default_material();
+  }
+}
+
+ir::MaterialId Lowering::default_material() {
   if (!default_material_.valid()) {
     const ir::Diffuse grey{.color = {{0.5, 0.5, 0.5}, {}}};
     default_material_ = session_.builder.add_material({.kind = grey, .common = {}}, {});
@@ -69,12 +90,11 @@ void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope,
     close(inside);
   }
   if (session_.checking_only() || !session_.count_item(head)) return;
-  if (!notes_.first_placed.valid()) notes_.first_placed = head;
+  if (!around.in_proto && !notes_.first_placed.valid()) notes_.first_placed = head;
   ir::Item item;
   item.transform = transform_for(placing.transform, around, head);
-  constexpr bool keeps_materials = std::same_as<T, ir::Instance>;
-  item.material = keeps_materials ? placing.material
-                                  : material_for(placing.material, material_written, around, head);
+  item.material = placing.material;
+  if (!item.material.valid() && !material_written) fill_material(shape, item, around, head);
   item.shape = session_.builder.add_shape(std::move(shape));
   item.origin = session_.add_origin(node.span());
   if (parts.name) item.name = session_.builder.add_name(parts.name.text());

@@ -62,6 +62,26 @@ class TemporaryDirectory {
   std::string path_;
 };
 
+// `file NAME TEXT`: writes TMP/NAME; in TEXT `\\n` is a line end and `{N*c}` N times c, so that a
+// case of a limit need not be a file of that size.
+void write_generated(const std::string& directory, const std::string& line) {
+  const std::size_t name_end = line.find(' ', 5);
+  std::string text;
+  for (std::size_t i = name_end + 1; i < line.size(); ++i) {
+    if (line[i] == '\\' && line.substr(i, 2) == "\\n") {
+      text += '\n';
+      ++i;
+    } else if (line[i] == '{' && line.find("*", i) != std::string::npos) {
+      const std::size_t star = line.find('*', i);
+      text.append(std::stoul(line.substr(i + 1, star - i - 1)), line[star + 1]);
+      i = star + 2;
+    } else {
+      text += line[i];
+    }
+  }
+  std::ofstream(fs::path(directory) / line.substr(5, name_end - 5), std::ios::binary) << text;
+}
+
 void print_first_difference(const std::string& expected, const std::string& actual) {
   std::istringstream a(expected);
   std::istringstream b(actual);
@@ -110,6 +130,10 @@ std::string transcript_of_args(const fs::path& args_file) {
     if (line.empty() || line.starts_with('#')) continue;
     if (!text.empty()) text += '\n';
     text += "$ " + line + "\n";
+    if (line.starts_with("file ")) {
+      write_generated(temporary.path(), line);
+      continue;
+    }
     std::string with_directory = line;
     replace_all(with_directory, "TMP", temporary.path());
     std::vector<std::string> words = words_of(with_directory);
