@@ -156,6 +156,7 @@ void Lowering::declare_proto(NodeRef node, Scope& scope, const Surroundings& aro
   ir::Proto proto;
   if (parts.block) {
     Scope inside(&scope);
+    proto_gaps_.begin();
     items(parts.block, inside,
           {.transform = {}, .material = {}, .items = &proto.items, .in_proto = true});
     close(inside);
@@ -163,8 +164,10 @@ void Lowering::declare_proto(NodeRef node, Scope& scope, const Surroundings& aro
   Value value = make_unknown(Type::proto);
   if (!session_.checking_only()) {
     const ir::NameId name = session_.builder.add_name(parts.name.text());
-    value = make_proto(
-        session_.builder.add_proto(std::move(proto), {name, session_.add_origin(node.span())}));
+    const ir::ProtoId id =
+        session_.builder.add_proto(std::move(proto), {name, session_.add_origin(node.span())});
+    proto_gaps_.finish(id);
+    value = make_proto(id);
   }
   declare(scope, parts.name, BindingKind::proto, std::move(value), node);
 }

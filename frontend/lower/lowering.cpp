@@ -47,7 +47,10 @@ bool is_called(const DiagnosticKindInfo& info, std::string_view word) {
 }  // namespace
 
 Lowering::Lowering(Session& session)
-    : session_(session), evaluator_(session), modules_(std::make_unique<Modules>(*this, session)) {}
+    : session_(session),
+      evaluator_(session),
+      proto_gaps_(session.builder),
+      modules_(std::make_unique<Modules>(*this, session)) {}
 Lowering::~Lowering() = default;
 
 void report_unknown_kind(Session& session, grammar::NodeRef kind, std::string_view family,

@@ -15,6 +15,7 @@
 #include "frontend/check/fields.hpp"
 #include "frontend/eval/evaluate.hpp"
 #include "frontend/lower/placement.hpp"
+#include "frontend/lower/proto_gaps.hpp"
 #include "frontend/session.hpp"
 #include "grammar/syntax_tree.hpp"
 
@@ -94,9 +95,11 @@ class Lowering final : public FieldCollector {
   void read_camera(const ast::Item& parts, NodeRef node, Scope& scope, const Surroundings& around);
   template <class T>
   void read_material(const ast::Item& parts, NodeRef node, Scope& scope, Value& value);
-  // What a shape is made of: its own material, its group's, or the default one.
-  [[nodiscard]] ir::MaterialId material_for(ir::MaterialId own, bool written,
-                                            const Surroundings& around, Span span);
+  // What a shape or instance without a material takes: its group's, or the default one.
+  template <class T>
+  void fill_material(T& shape, ir::Item& item, const Surroundings& around, Span span);
+  [[nodiscard]] ir::MaterialId default_material();
+  void note_gap(const Surroundings& around, Span lint);
   [[nodiscard]] ir::TransformId transform_for(const std::optional<ir::Transform>& own,
                                               const Surroundings& around, Span span);
   void misplaced(NodeRef node, std::string_view where);
@@ -121,6 +124,7 @@ class Lowering final : public FieldCollector {
   ir::RenderSettings render_;
   ir::OriginId render_origin_;
   ir::MaterialId default_material_;
+  ProtoGaps proto_gaps_;
   std::vector<Diagnostic> unused_;  // lints, reported when nothing is wrong
   std::unique_ptr<Modules> modules_;
   struct FieldsLease;
