@@ -25,14 +25,17 @@ void destroy(PreparedScene* scene);
 void destroy(RenderScene* scene);
 struct Destroy {
   template <class T>
-  void operator()(T* scene) const { destroy(scene); }
+  void operator()(T* scene) const {
+    destroy(scene);
+  }
 };
 using PreparedPtr = std::unique_ptr<PreparedScene, Destroy>;
 using RenderScenePtr = std::unique_ptr<RenderScene, Destroy>;
 
 // Reads and checks every asset the scene names and examines the geometry (degenerate faces, lights
 // inside geometry); reports with origins from the IR. Null when there was an error.
-[[nodiscard]] PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool, DiagnosticSink& sink);
+[[nodiscard]] PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
+                                  DiagnosticSink& sink);
 
 [[nodiscard]] RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool);
 
@@ -51,27 +54,28 @@ struct Picture {
   std::vector<float> rgb;
   std::vector<float> alpha;
   std::vector<std::pair<std::string, std::vector<float>>> layers;
-  std::int64_t samples = 0;          // a pixel, of the finished rounds
-  bool complete = true;              // false after a stop request
-  std::uint64_t dropped_samples = 0; // not finite: counted, never averaged
+  std::int64_t samples = 0;           // a pixel, of the finished rounds
+  bool complete = true;               // false after a stop request
+  std::uint64_t dropped_samples = 0;  // not finite: counted, never averaged
   std::uint64_t rays = 0;
 };
 
-// Renders with `settings` (the scene's, or the scene's with the command line's changes). The bytes of
-// the picture depend on scene, settings and build only: not on threads, tiles or time. After a stop
-// request it returns within milliseconds with the samples every pixel has in common.
-[[nodiscard]] Picture render(const RenderScene& scene, const ir::RenderSettings& settings, ThreadPool& pool,
-                             std::stop_token stop, const ProgressFunction& progress);
+// Renders with `settings` (the scene's, or the scene's with the command line's changes). The bytes
+// of the picture depend on scene, settings and build only: not on threads, tiles or time. After a
+// stop request it returns within milliseconds with the samples every pixel has in common.
+[[nodiscard]] Picture render(const RenderScene& scene, const ir::RenderSettings& settings,
+                             ThreadPool& pool, std::stop_token stop,
+                             const ProgressFunction& progress);
 
-// Bytes of the picture as a file. 8-bit formats apply exposure and tonemap (film .course: truncation
-// without a curve); EXR holds linear float32.
+// Bytes of the picture as a file. 8-bit formats apply exposure and tonemap (film .course:
+// truncation without a curve); EXR holds linear float32.
 enum class ImageFormat : std::uint8_t { png, exr, bmp };
 [[nodiscard]] std::optional<ImageFormat> image_format_of(const std::string& path);
 struct EncodeOptions {
   bool half = false;
   std::vector<std::pair<std::string, std::string>> metadata;  // "scenec/scene_hash" -> ...
 };
-[[nodiscard]] std::string encode(const Picture& picture, const ir::RenderSettings& settings, ImageFormat format,
-                                 const EncodeOptions& options);
+[[nodiscard]] std::string encode(const Picture& picture, const ir::RenderSettings& settings,
+                                 ImageFormat format, const EncodeOptions& options);
 
 }  // namespace scenec::backend

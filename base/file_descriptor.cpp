@@ -73,14 +73,14 @@ Result<FileContent, FileError> read_all(int descriptor, std::uint64_t expected_s
 }
 
 Result<FileContent, FileError> read_regular(int file, std::uint64_t size_limit) {
-  struct stat before {};
+  struct stat before{};
   if (::fstat(file, &before) != 0) return Failure{file_error_of(errno)};
   for (int attempt = 0;; ++attempt) {
     if (const auto problem = find_kind_problem(before)) return Failure{*problem};
     const auto stated_size = static_cast<std::uint64_t>(before.st_size);
     if (stated_size > size_limit) return Failure{FileError::too_large};
     auto content = read_all(file, stated_size, size_limit);
-    struct stat after {};
+    struct stat after{};
     if (::fstat(file, &after) != 0) return Failure{file_error_of(errno)};
     // Somebody wrote while we read: a second look mends the common case of an editor that saves.
     if (attempt > 0 || !changed(before, after)) return content;

@@ -140,7 +140,7 @@ Result<Descriptor, FileError> RootedFileSystem::open_by_name(std::string_view pa
       continue;
     }
     Descriptor entry(::openat(here(), name.c_str(), look_flags | O_NOFOLLOW));
-    struct stat info {};
+    struct stat info{};
     if (!entry.valid() || ::fstat(entry.number(), &info) != 0) return Failure{file_error_of(errno)};
     if (S_ISLNK(info.st_mode)) {
       if (++links > most_links) return Failure{FileError::not_found};
@@ -183,7 +183,7 @@ Result<FileContent, FileError> RootedFileSystem::read(const std::string& path,
 bool RootedFileSystem::is_file(const std::string& path) {
   if (is_permitted(path)) return disk_.is_file(path);
   const auto file = open(path, Purpose::look);
-  struct stat info {};
+  struct stat info{};
   return file && ::fstat(file.value().number(), &info) == 0 && S_ISREG(info.st_mode);
 }
 

@@ -14,17 +14,19 @@ namespace scenec::grammar {
 enum class Dialect : std::uint8_t { sdl, course };
 
 struct ParseLimits {
-  std::uint32_t nesting = 256;            // blocks and brackets
-  std::uint32_t token = 64u << 10;        // bytes of one token other than a string or comment
-  std::uint32_t string = 1u << 20;        // bytes of one string
-  std::uint64_t line = 16u << 20;         // bytes of one line: bounds time and memory of dense text
-  std::uint64_t file = 512ull << 20;      // bytes of one file
+  std::uint32_t nesting = 256;        // blocks and brackets
+  std::uint32_t token = 64u << 10;    // bytes of one token other than a string or comment
+  std::uint32_t string = 1u << 20;    // bytes of one string
+  std::uint64_t line = 16u << 20;     // bytes of one line: bounds time and memory of dense text
+  std::uint64_t file = 512ull << 20;  // bytes of one file
 };
 
 // Both run in time linear in the text and in stack space bounded by the nesting limit. A limit hit
 // is one error; what follows it is one error node.
-[[nodiscard]] SyntaxTree parse_sdl(FileId file, std::string_view text, DiagnosticSink& sink, const ParseLimits& limits = {});
-[[nodiscard]] SyntaxTree parse_course(FileId file, std::string_view text, DiagnosticSink& sink, const ParseLimits& limits = {});
+[[nodiscard]] SyntaxTree parse_sdl(FileId file, std::string_view text, DiagnosticSink& sink,
+                                   const ParseLimits& limits = {});
+[[nodiscard]] SyntaxTree parse_course(FileId file, std::string_view text, DiagnosticSink& sink,
+                                      const ParseLimits& limits = {});
 
 // A `.sdl` extension or a first statement `sdl N;` says native; all else is course.
 [[nodiscard]] Dialect dialect_of(std::string_view path, std::string_view text);

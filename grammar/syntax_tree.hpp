@@ -20,13 +20,16 @@ enum class SyntaxKind : std::uint8_t {
 #undef SCENEC_SYNTAX
 };
 [[nodiscard]] std::string_view name_of(SyntaxKind kind);
-[[nodiscard]] constexpr bool is_token(SyntaxKind kind) { return kind <= SyntaxKind::error_text; }
+[[nodiscard]] constexpr bool is_token(SyntaxKind kind) {
+  return kind <= SyntaxKind::error_text;
+}
 
 struct SyntaxNode {
   SyntaxKind kind = SyntaxKind::error;
-  std::uint32_t begin = 0;  // first byte of the first token; an empty node stands where it was expected
-  std::uint32_t end = 0;    // one past the last token
-  std::uint32_t next = 0;   // index behind this node's subtree
+  std::uint32_t begin =
+      0;  // first byte of the first token; an empty node stands where it was expected
+  std::uint32_t end = 0;   // one past the last token
+  std::uint32_t next = 0;  // index behind this node's subtree
 };
 
 enum class TriviaKind : std::uint8_t { line_comment, block_comment, doc_comment };
@@ -92,7 +95,8 @@ class SyntaxTree {
  public:
   SyntaxTree() = default;
   // `text` must outlive the tree (the SourceMap owns it). nodes[0] is the root.
-  SyntaxTree(FileId file, std::string_view text, std::vector<SyntaxNode> nodes, std::vector<Trivia> trivia);
+  SyntaxTree(FileId file, std::string_view text, std::vector<SyntaxNode> nodes,
+             std::vector<Trivia> trivia);
 
   [[nodiscard]] FileId file() const { return file_; }
   [[nodiscard]] std::string_view text() const { return text_; }
@@ -114,7 +118,9 @@ inline NodeRef::Iterator& NodeRef::Iterator::operator++() {
   index_ = tree_->nodes()[index_].next;
   return *this;
 }
-inline SyntaxKind NodeRef::kind() const { return tree_->nodes()[index_].kind; }
+inline SyntaxKind NodeRef::kind() const {
+  return tree_->nodes()[index_].kind;
+}
 inline Span NodeRef::span() const {
   const SyntaxNode& node = tree_->nodes()[index_];
   return {tree_->file(), node.begin, node.end};

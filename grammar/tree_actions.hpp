@@ -10,22 +10,16 @@
 namespace scenec::grammar {
 
 template <class Rule>
-concept token_rule = requires {
-  Rule::token_kind;
-};
+concept token_rule = requires { Rule::token_kind; };
 template <class Rule>
-concept node_rule = requires {
-  Rule::node_kind;
-};
+concept node_rule = requires { Rule::node_kind; };
 template <class Rule>
-concept wrapping_rule = requires {
-  Rule::wrapping_kind;
-};
+concept wrapping_rule = requires { Rule::wrapping_kind; };
 template <class Rule>
 concept recovering_rule = std::derived_from<Rule, recovers>;
 template <class Rule>
 concept tree_rule = token_rule<Rule> || node_rule<Rule> || wrapping_rule<Rule> ||
-    std::derived_from<Rule, restores_depth>;
+                    std::derived_from<Rule, restores_depth>;
 
 template <class Rule>
 struct build {};
@@ -34,7 +28,8 @@ template <class Rule>
 concept string_rule = std::same_as<Rule, lex::string_text>;
 
 template <class Rule>
-requires(tree_rule<Rule> && !recovering_rule<Rule>) struct build<Rule> {
+  requires(tree_rule<Rule> && !recovering_rule<Rule>)
+struct build<Rule> {
   template <class Same, peg::apply_mode A, peg::rewind_mode M, template <class...> class Action,
             template <class...> class Control, class Input, class... States>
   [[nodiscard]] static bool match(Input& in, TreeBuilder& builder, States&&... states) {

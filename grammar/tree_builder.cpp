@@ -13,8 +13,8 @@ namespace scenec::grammar {
 
 namespace {
 
-// People read the first dozen; beyond this the text is not in this language at all. With the message
-// that says so they are the hundred that are printed.
+// People read the first dozen; beyond this the text is not in this language at all. With the
+// message that says so they are the hundred that are printed.
 constexpr std::uint32_t most_reports = 99;
 
 TriviaKind trivia_kind(std::string_view comment) {

@@ -20,7 +20,8 @@ void for_each_number(double value, F&& f) {
   f(value);
 }
 template <class T, class F>
-requires(std::integral<T> && !std::same_as<T, bool>) void for_each_number(T value, F&& f) {
+  requires(std::integral<T> && !std::same_as<T, bool>)
+void for_each_number(T value, F&& f) {
   f(static_cast<double>(value));
 }
 template <class Tag, class F>
@@ -32,8 +33,8 @@ void for_each_number(const Vec2& v, F&& f) {
   f(v.x), f(v.y);
 }
 template <class T, class F>
-requires(std::same_as<T, Vec3> || std::same_as<T, Direction> ||
-         std::same_as<T, Point3>) void for_each_number(const T& v, F&& f) {
+  requires(std::same_as<T, Vec3> || std::same_as<T, Direction> || std::same_as<T, Point3>)
+void for_each_number(const T& v, F&& f) {
   f(v.x), f(v.y), f(v.z);
 }
 template <class F>
@@ -62,7 +63,8 @@ void for_each_number(const Region& r, F&& f) {
 }
 // Values without numbers of their own.
 template <class T, class F>
-requires(std::same_as<T, bool> || std::is_enum_v<T>) void for_each_number(T, F&&) {}
+  requires(std::same_as<T, bool> || std::is_enum_v<T>)
+void for_each_number(T, F&&) {}
 template <class Tag, class F>
 void for_each_number(Id<Tag>, F&&) {}
 

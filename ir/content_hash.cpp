@@ -116,8 +116,8 @@ class ContentHasher {
   }
   void feed(Hasher& hasher, const Vec2& v) { hasher.add(v.x), hasher.add(v.y); }
   template <class T>
-  requires(std::same_as<T, Vec3> || std::same_as<T, Direction> ||
-           std::same_as<T, Point3>) void feed(Hasher& hasher, const T& v) {
+    requires(std::same_as<T, Vec3> || std::same_as<T, Direction> || std::same_as<T, Point3>)
+  void feed(Hasher& hasher, const T& v) {
     hasher.add(v.x), hasher.add(v.y), hasher.add(v.z);
   }
   void feed(Hasher& hasher, const Color& c) { hasher.add(c.r), hasher.add(c.g), hasher.add(c.b); }

@@ -17,10 +17,12 @@ namespace {
 // The type of a key as an author thinks of it.
 template <class T>
 struct TypeText;
-#define SCENEC_TYPE_TEXT(type, words)           \
-  template <>                                   \
-  struct TypeText<type> {                       \
-    static std::string text() { return words; } \
+#define SCENEC_TYPE_TEXT(type, words) \
+  template <>                         \
+  struct TypeText<type> {             \
+    static std::string text() {       \
+      return words;                   \
+    }                                 \
   }
 SCENEC_TYPE_TEXT(bool, "bool");
 SCENEC_TYPE_TEXT(std::int64_t, "int");

@@ -43,19 +43,19 @@ enum class Need : std::uint8_t { optional, required };
 template <class T, class Member>
 struct Key {
   using member_type = Member;
-  Member T::*member;
+  Member T::* member;
   std::string_view name;
   Need need = Need::optional;
   Range range{};
   std::string_view doc;
 };
 template <class T, class Member>
-[[nodiscard]] constexpr Key<T, Member> key(Member T::*member, std::string_view name, Range range,
+[[nodiscard]] constexpr Key<T, Member> key(Member T::* member, std::string_view name, Range range,
                                            std::string_view doc) {
   return {member, name, Need::optional, range, doc};
 }
 template <class T, class Member>
-[[nodiscard]] constexpr Key<T, Member> required(Member T::*member, std::string_view name,
+[[nodiscard]] constexpr Key<T, Member> required(Member T::* member, std::string_view name,
                                                 Range range, std::string_view doc) {
   return {member, name, Need::required, range, doc};
 }

@@ -89,8 +89,6 @@ struct Curve {
 template <class E>
 struct EnumNames;
 template <class E>
-concept NamedEnum = requires {
-  EnumNames<E>::names;
-};
+concept NamedEnum = requires { EnumNames<E>::names; };
 
 }  // namespace scenec::ir

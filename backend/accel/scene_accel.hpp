@@ -52,9 +52,9 @@ class HitFilter {
  public:
   HitFilter() = default;
   template <class F>
-  requires(!std::is_same_v<std::remove_cvref_t<F>, HitFilter> &&
-           std::is_invocable_r_v<bool, F&, const Hit&>)
-      HitFilter(F&& keep)  // NOLINT(google-explicit-constructor): a call site passes a lambda
+    requires(!std::is_same_v<std::remove_cvref_t<F>, HitFilter> &&
+             std::is_invocable_r_v<bool, F&, const Hit&>)
+  HitFilter(F&& keep)  // NOLINT(google-explicit-constructor): a call site passes a lambda
       : context_(const_cast<void*>(static_cast<const void*>(&keep))),
         call_([](void* context, const Hit& hit) -> bool {
           return (*static_cast<std::remove_reference_t<F>*>(context))(hit);

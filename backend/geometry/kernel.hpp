@@ -77,14 +77,14 @@ struct Hit {
 };
 
 template <class Shape>
-concept ShapeKernel = requires(const Shape& shape, const Ray& ray, ShapeHit& out,
-                               const ShapeHit& hit) {
-  // The hit with the smallest t in [ray.t_min, ray.t_max]; false and `out` untouched if none.
-  { intersect(shape, ray, out) } -> std::same_as<bool>;
-  // Encloses every point the kernel can report.
-  { bounds(shape) } -> std::same_as<Bounds3>;
-  { surface(shape, ray, hit) } -> std::same_as<Surface>;
-};
+concept ShapeKernel =
+    requires(const Shape& shape, const Ray& ray, ShapeHit& out, const ShapeHit& hit) {
+      // The hit with the smallest t in [ray.t_min, ray.t_max]; false and `out` untouched if none.
+      { intersect(shape, ray, out) } -> std::same_as<bool>;
+      // Encloses every point the kernel can report.
+      { bounds(shape) } -> std::same_as<Bounds3>;
+      { surface(shape, ray, hit) } -> std::same_as<Surface>;
+    };
 
 // The error bounds of kernels hold for one evaluation; a spawned ray is judged by a second one with
 // other roundings, and an accelerator's transforms add theirs. Four times covers both with room.

@@ -13,7 +13,7 @@ namespace {
 
 // Where a key is written, or the head of the block.
 template <class T, class Owner, class Member>
-Span place_of(const BlockChecker& checker, Member Owner::*member, Span head) {
+Span place_of(const BlockChecker& checker, Member Owner::* member, Span head) {
   const Field* field = checker.written(key_name<T>(member));
   if (field == nullptr) return head;
   return field->expression ? field->expression.span() : field->name_node.span();

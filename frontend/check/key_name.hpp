@@ -9,7 +9,7 @@
 namespace scenec::frontend {
 
 template <class T, class Owner, class Member>
-[[nodiscard]] constexpr std::string_view key_name(Member Owner::*member) {
+[[nodiscard]] constexpr std::string_view key_name(Member Owner::* member) {
   std::string_view name;
   ir::visit_keys<T>([&](const auto& key) {
     if constexpr (std::same_as<std::remove_cvref_t<decltype(key.member)>, Member Owner::*>) {

@@ -156,8 +156,7 @@ Value curve(Call& call, ir::CurveKind kind, bool (*fits)(std::size_t), std::stri
 }
 
 Value run_polyline(Call& call) {
-  return curve(
-      call, ir::CurveKind::polyline, [](std::size_t n) { return n >= 2; }, "at least 2");
+  return curve(call, ir::CurveKind::polyline, [](std::size_t n) { return n >= 2; }, "at least 2");
 }
 Value run_bezier(Call& call) {
   return curve(
@@ -169,8 +168,7 @@ Value run_beziers(Call& call) {
       "3k + 1 (4, 7, 10 and so on)");
 }
 Value run_bspline(Call& call) {
-  return curve(
-      call, ir::CurveKind::bspline, [](std::size_t n) { return n >= 4; }, "at least 4");
+  return curve(call, ir::CurveKind::bspline, [](std::size_t n) { return n >= 4; }, "at least 4");
 }
 
 // ---- pixel filters: each name of the enumeration is a function of the radius

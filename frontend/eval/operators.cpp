@@ -97,7 +97,7 @@ double floored_remainder(double a, double b) {
 // Sum or difference of exponents; nullopt beyond what a dimension can hold.
 std::optional<Dimension> dimension_product(Dimension a, Dimension b, int sign) {
   Dimension result;
-  const auto combine = [&](std::int8_t Dimension::*exponent) {
+  const auto combine = [&](std::int8_t Dimension::* exponent) {
     const int sum = a.*exponent + sign * b.*exponent;
     result.*exponent = static_cast<std::int8_t>(sum);
     return sum >= -100 && sum <= 100;

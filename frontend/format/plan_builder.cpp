@@ -91,8 +91,9 @@ std::uint32_t PlanBuilder::open_group(GroupKind kind, std::uint32_t parent) {
   return static_cast<std::uint32_t>(plan_.groups.size()) - 1;
 }
 
-// `a // x` and then `;` on the next line: the mark goes before the comment, unless the comment that
-// follows it would then begin a line (a `///` there would document what comes next).
+// `a // x` and then `;` on the next line: the mark goes before the comment, unless a line comment
+// that follows it would then begin a line (a `///` there would document what comes next). A block
+// comment documents nothing, so it holds nothing up.
 void PlanBuilder::let_marks_pass() {
   for (std::size_t i = 1; i + 1 < plan_.tokens.size(); ++i) {
     Token& mark = plan_.tokens[i];
@@ -100,7 +101,10 @@ void PlanBuilder::let_marks_pass() {
     if (mark.comment_count != 1 || mark.spacing != Spacing::mark) continue;
     const Comment& comment = plan_.comments[mark.first_comment];
     if (!comment.is_line || comment.newlines > 0) continue;
-    if (next.comment_count > 0 && plan_.comments[next.first_comment].newlines == 0) continue;
+    if (next.comment_count > 0 && plan_.comments[next.first_comment].newlines == 0 &&
+        plan_.comments[next.first_comment].is_line) {
+      continue;
+    }
     mark.comment_count = 0;
     mark.newlines = 0;
     next.first_comment = mark.first_comment;

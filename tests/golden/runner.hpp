@@ -20,8 +20,9 @@ struct RunResult {
 // Standard output, standard error and exit code as one text; what says "ok" leaves no line.
 [[nodiscard]] std::string transcript_of(const RunResult& result);
 
-// Runs each line of an `.args` file (`scenec WORD...`, or `file NAME TEXT`; `TMP` is an empty directory made for it;
-// blank lines and `#` comments are skipped) and joins the transcripts. `"a b"` is one word.
+// Runs each line of an `.args` file (`scenec WORD...`, or `file NAME TEXT`; `TMP` is an empty
+// directory made for it; blank lines and `#` comments are skipped) and joins the transcripts. `"a
+// b"` is one word.
 [[nodiscard]] std::string transcript_of_args(const std::filesystem::path& args_file);
 
 // Files of `directory` with one of the extensions, sorted.

@@ -41,12 +41,14 @@ TEST(CourseMaterials, WeightsOfTypeAreScaledAndMixed) {
   EXPECT_EQ(material_text("color 1 0 0 type 3 1 0"),
             "material m0_diffuse: diffuse { color = rgb(1, 0, 0); }\n"
             "material m0_mirror: mirror { color = rgb(1, 0, 0); }\n"
+            "@allow(unused_declaration)\n"
             "material m0: mix { a = m0_diffuse; b = m0_mirror; weight = 0.25; }\n");
 }
 
 TEST(CourseMaterials, ThreeLobesAreTwoMixes) {
   EXPECT_THAT(material_text("color 1 0 0 type 2 1 1"),
-              HasSubstr("material m0_rest1: mix { a = m0_mirror; b = m0_glass; weight = 0.5; }\n"
+              HasSubstr("material m0_rest1: mix { a = m0_mirror; b = m0_glass; weight = 0.5; "
+                        "}\n@allow(unused_declaration)\n"
                         "material m0: mix { a = m0_diffuse; b = m0_rest1; weight = 0.5; }\n"));
 }
 

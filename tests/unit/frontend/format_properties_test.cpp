@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -129,11 +128,10 @@ class Mutator {
 };
 
 TEST(FormatProperties, MutationsOfScenes) {
-  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+  constexpr std::uint64_t usual_seed = 1795355786433383886u;  // found a mark that moved twice
   const char* const given = std::getenv("SCENEC_FORMAT_SEED");
   const char* const rounds = std::getenv("SCENEC_FORMAT_MUTANTS");
-  const std::uint64_t seed =
-      given != nullptr ? std::stoull(given) : static_cast<std::uint64_t>(now);
+  const std::uint64_t seed = given != nullptr ? std::stoull(given) : usual_seed;
   const int mutants = rounds != nullptr ? std::stoi(rounds) : 4000;
   SCOPED_TRACE("SCENEC_FORMAT_SEED=" + std::to_string(seed));
   const std::vector<Scene> scenes = scenes_of_the_tree();

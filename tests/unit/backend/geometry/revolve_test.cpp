@@ -91,17 +91,13 @@ const std::vector<std::pair<const char*, MakeRay>>& ray_kinds() {
       {"very nearly level", [](Draw& d) { return aimed(d, 1e-15); }},
       {"level", [](Draw& d) { return aimed(d, 0); }},
       {"along the axis",
-       [](Draw& d) {
-         return Ray{{d.between(-1.4, 1.4), -3, d.between(-0.4, 0.4)}, {0, 1, 0}};
-       }},
+       [](Draw& d) { return Ray{{d.between(-1.4, 1.4), -3, d.between(-0.4, 0.4)}, {0, 1, 0}}; }},
       {"from inside",
        [](Draw& d) {
          return Ray{{d.between(-0.1, 0.1), d.between(0.5, 1.5), 0.05}, d.direction()};
        }},
       {"through the axis",
-       [](Draw& d) {
-         return Ray{{3, d.between(0, 2), 0}, {-1, d.between(-0.3, 0.3), 0}};
-       }},
+       [](Draw& d) { return Ray{{3, d.between(0, 2), 0}, {-1, d.between(-0.3, 0.3), 0}}; }},
       {"long direction",
        [](Draw& d) {
          Ray r = aimed(d, -1);

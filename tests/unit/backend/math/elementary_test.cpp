@@ -66,18 +66,15 @@ TEST_F(Elementary, SinAndCosOverTheDomain) {
   EXPECT_WITHIN(0.8, s, sl, large);
   EXPECT_WITHIN(0.8, c, cl, large);
   EXPECT_WITHIN(0.8, s, sl, spread);
-  EXPECT_WITHIN(
-      0.8, [](double x) { return cos(x); }, cl, spread);
+  EXPECT_WITHIN(0.8, [](double x) { return cos(x); }, cl, spread);
 }
 
 TEST_F(Elementary, SinNearMultiplesOfHalfPi) {
   const auto near = [](double u, double v) {
     return std::floor(1e6 * u) * (pi / 2) * (1 + (v - 0.5) * DBL_EPSILON);
   };
-  EXPECT_WITHIN(
-      0.8, [](double x) { return sin(x); }, [](long double x) { return sinl(x); }, near);
-  EXPECT_WITHIN(
-      0.8, [](double x) { return cos(x); }, [](long double x) { return cosl(x); }, near);
+  EXPECT_WITHIN(0.8, [](double x) { return sin(x); }, [](long double x) { return sinl(x); }, near);
+  EXPECT_WITHIN(0.8, [](double x) { return cos(x); }, [](long double x) { return cosl(x); }, near);
 }
 
 TEST_F(Elementary, Tan) {
@@ -93,14 +90,10 @@ TEST_F(Elementary, AsinAndAcos) {
   };
   const auto as = [](double x) { return asin(x); };
   const auto ac = [](double x) { return acos(x); };
-  EXPECT_WITHIN(
-      0.8, as, [](long double x) { return asinl(x); }, whole);
-  EXPECT_WITHIN(
-      0.8, ac, [](long double x) { return acosl(x); }, whole);
-  EXPECT_WITHIN(
-      0.8, as, [](long double x) { return asinl(x); }, near_one);
-  EXPECT_WITHIN(
-      0.8, ac, [](long double x) { return acosl(x); }, near_one);
+  EXPECT_WITHIN(0.8, as, [](long double x) { return asinl(x); }, whole);
+  EXPECT_WITHIN(0.8, ac, [](long double x) { return acosl(x); }, whole);
+  EXPECT_WITHIN(0.8, as, [](long double x) { return asinl(x); }, near_one);
+  EXPECT_WITHIN(0.8, ac, [](long double x) { return acosl(x); }, near_one);
 }
 
 TEST_F(Elementary, Atan2) {

@@ -11,9 +11,7 @@ namespace scenec::backend {
 namespace {
 
 template <class A, class B>
-concept CanAdd = requires(A a, B b) {
-  a + b;
-};
+concept CanAdd = requires(A a, B b) { a + b; };
 
 static_assert(CanAdd<Point3, Vector3> && CanAdd<Vector3, UnitVector3>);
 static_assert(!CanAdd<Point3, Point3> && !CanAdd<Normal3, Vector3>);
