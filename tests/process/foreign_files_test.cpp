@@ -22,22 +22,22 @@ const std::string rest =
     "light: point { position = [0, 3, 3]; power = 60W; }\n"
     "camera main: pinhole { eye = [0, 0, 5]; aim = [0, 0, 0]; fov = 40deg; }\n";
 
-// SANDBOX/secret.sdl and SANDBOX/work/scene.sdl; `work` is the working directory.
+// SANDBOX/secret.sdl and SANDBOX/desk/scene.sdl; `desk` is the working directory.
 class ForeignFiles : public testing::Test {
  protected:
   void SetUp() override {
-    fs::create_directory(work());
+    fs::create_directory(desk());
     sandbox_.write("secret.sdl", "sdl 1;\nlet secret = 42;\n");
   }
-  [[nodiscard]] fs::path work() const { return sandbox_.path() / "work"; }
+  [[nodiscard]] fs::path desk() const { return sandbox_.path() / "desk"; }
   void link(const std::string& name, const std::string& target) const {
-    fs::create_symlink(target, work() / name);
+    fs::create_symlink(target, desk() / name);
   }
   [[nodiscard]] ChildResult check(const std::string& text) const {
-    sandbox_.write("work/scene.sdl", head + text + rest);
+    sandbox_.write("desk/scene.sdl", head + text + rest);
     return scenec::test::run_child(
         {"check", "scene.sdl"},
-        {.directory = work(), .file_size_limit = {}, .standard_output = {}});
+        {.directory = desk(), .file_size_limit = {}, .standard_output = {}});
   }
   void expect_error(const std::string& text, const std::string& code) const {
     const ChildResult result = check(text);
@@ -76,33 +76,33 @@ TEST_F(ForeignFiles, PathsThatLeadOutOfTheRoot) {
 }
 
 TEST_F(ForeignFiles, DevicesAndPipes) {
-  ASSERT_EQ(::mkfifo((work() / "pipe.sdl").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((desk() / "pipe.sdl").c_str(), 0600), 0);
   link("zero.sdl", "/dev/zero");
   expect_include_error("pipe.sdl", "E0601");
   expect_include_error("zero.sdl", "E0602");
   expect_include_error("/dev/zero", "E0602");
   expect_include_error("/dev/stdin", "E0602");
-  fs::rename(work() / "pipe.sdl", work() / "pipe.obj");
+  fs::rename(desk() / "pipe.sdl", desk() / "pipe.obj");
   expect_asset_error("pipe.obj", "E0601");
 }
 
 TEST_F(ForeignFiles, CyclesOfIncludes) {
-  sandbox_.write("work/a.sdl",
+  sandbox_.write("desk/a.sdl",
                  "sdl 1;\ninclude \"b.sdl\" as b;\n@allow(unused_declaration) let x = b.y;\n");
-  sandbox_.write("work/b.sdl", "sdl 1;\ninclude \"a.sdl\" as a;\nlet y = a.x;\n");
+  sandbox_.write("desk/b.sdl", "sdl 1;\ninclude \"a.sdl\" as a;\nlet y = a.x;\n");
   expect_include_error("a.sdl", "E0244");
   expect_include_error("scene.sdl", "E0244");
 }
 
 TEST_F(ForeignFiles, TheRootCanBeMoved) {
-  sandbox_.write("work/scene.sdl", head +
+  sandbox_.write("desk/scene.sdl", head +
                                        "include \"../secret.sdl\" as other;\n"
                                        "assert other.secret == 42, \"read\";\n" +
                                        rest);
   const auto run = [&](const std::string& root) {
     return scenec::test::run_child(
                {"check", "--root", root, "scene.sdl"},
-               {.directory = work(), .file_size_limit = {}, .standard_output = {}})
+               {.directory = desk(), .file_size_limit = {}, .standard_output = {}})
         .exit_code;
   };
   EXPECT_EQ(run(".."), 0);
