@@ -3,7 +3,7 @@
 #include <array>
 
 #include "backend/build.hpp"
-#include "backend/math/elementary.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 namespace {

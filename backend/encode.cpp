@@ -6,8 +6,8 @@
 #include "backend/backend.hpp"
 #include "backend/image/tone.hpp"
 #include "backend/image/write_image.hpp"
-#include "backend/math/elementary.hpp"
 #include "base/assert.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 namespace {

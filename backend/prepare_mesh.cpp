@@ -6,9 +6,9 @@
 #include <string>
 #include <unordered_map>
 
-#include "backend/math/elementary.hpp"
 #include "backend/prepare.hpp"
 #include "base/assert.hpp"
+#include "base/elementary.hpp"
 #include "base/hash.hpp"
 #include "base/text.hpp"
 

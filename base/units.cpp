@@ -1,6 +1,6 @@
 #include "base/units.hpp"
 
-#include <numbers>
+#include "base/elementary.hpp"
 
 namespace scenec {
 
@@ -24,7 +24,7 @@ constexpr std::array<Unit, 11> units{{
     {"cm", dimension::length, 1, 100},
     {"mm", dimension::length, 1, 1000},
     {"km", dimension::length, 1000, 1},
-    {"deg", dimension::angle, std::numbers::pi, 180},
+    {"deg", dimension::angle, pi, 180},
     {"rad", dimension::angle, 1, 1},
     {"s", dimension::time, 1, 1},
     {"ms", dimension::time, 1, 1000},

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "backend/math/elementary.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 namespace {

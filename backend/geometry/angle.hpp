@@ -1,7 +1,7 @@
 // The angle of a point around an axis as a texture coordinate in [0, 1).
 #pragma once
 
-#include "backend/math/elementary.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 

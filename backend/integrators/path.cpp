@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "backend/integrators/tracer.hpp"
-#include "backend/math/elementary.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 namespace {

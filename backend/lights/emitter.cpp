@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "backend/math/elementary.hpp"
 #include "backend/math/frame.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "backend/math/elementary.hpp"
 #include "backend/textures/texture.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 namespace {

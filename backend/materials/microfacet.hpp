@@ -11,9 +11,9 @@
 
 #include <cmath>
 
-#include "backend/math/elementary.hpp"
 #include "backend/math/sampling.hpp"
 #include "backend/math/vec.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 

@@ -10,8 +10,8 @@
 // Proof:      tests/unit/backend/math/sampling_test.cpp.
 #pragma once
 
-#include "backend/math/elementary.hpp"
 #include "backend/math/vec.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 

@@ -1,10 +1,10 @@
 // Lights with an extent: spheres, disks, parallelograms, triangles, meshes.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "base/elementary.hpp"
 #include "base/text.hpp"
 #include "frontend/course/lights.hpp"
 #include "frontend/course/native_text.hpp"
@@ -195,8 +195,7 @@ void Lights::write_disk_of_area(const Light& light, Text& out) {
   item.add("normal", list_of(light.fields[Role::direction].numbers),
            light.fields[Role::direction].span);
   item.add("radius",
-           text_of_value(std::sqrt(std::max(area.numbers[0].value, 0.0) / std::numbers::pi),
-                         area.values_span()),
+           text_of_value(std::sqrt(std::max(area.numbers[0].value, 0.0) / pi), area.values_span()),
            area.span);
   add_strength(item, light);
   finish(item, light, out);

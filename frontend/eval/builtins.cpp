@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/elementary.hpp"
 #include "base/text.hpp"
-#include "frontend/eval/math.hpp"
 #include "frontend/eval/operators.hpp"
 
 namespace scenec::frontend {
@@ -45,8 +45,8 @@ std::span<const std::string_view> constant_names() {
 }
 
 std::optional<Value> find_constant(std::string_view name) {
-  if (name == "pi") return make_number(math::pi);
-  if (name == "tau") return make_number(2 * math::pi);
+  if (name == "pi") return make_number(pi);
+  if (name == "tau") return make_number(2 * pi);
   if (name == "black") return make_color(0, 0, 0);
   if (name == "white") return make_color(1, 1, 1);
   return std::nullopt;

@@ -20,11 +20,19 @@ Value plain_result(Call& call, double (*compute)(double), Dimension dimension = 
                        call.function);
 }
 
+// Beyond the limit neighbouring numbers are further apart than a turn can be told from another.
+bool too_far_round(const Call& call) {
+  return call.known && !(std::fabs(call[0].real()) <= angle_limit);
+}
+Value trigonometric(Call& call, double (*compute)(double)) {
+  if (too_far_round(call)) return call.outside(0, "an angle of at most 2^48 rad");
+  return plain_result(call, compute);
+}
 Value run_sin(Call& call) {
-  return plain_result(call, math::sine);
+  return trigonometric(call, math::sine);
 }
 Value run_cos(Call& call) {
-  return plain_result(call, math::cosine);
+  return trigonometric(call, math::cosine);
 }
 
 Value run_tan(Call& call) {
@@ -32,7 +40,7 @@ Value run_tan(Call& call) {
   const auto quarters = math::quarter_turns(call[0].real());
   if (quarters && *quarters % 2 != 0)
     return call.outside(0, "an angle other than 90 deg and its odd multiples");
-  return quarters ? make_number(0) : plain_result(call, math::tangent);
+  return quarters ? make_number(0) : trigonometric(call, tan);
 }
 
 Value inverse(Call& call, double (*compute)(double)) {
@@ -41,13 +49,13 @@ Value inverse(Call& call, double (*compute)(double)) {
   return plain_result(call, compute, dimension::angle);
 }
 Value run_asin(Call& call) {
-  return inverse(call, math::arc_sine);
+  return inverse(call, asin);
 }
 Value run_acos(Call& call) {
-  return inverse(call, math::arc_cosine);
+  return inverse(call, acos);
 }
 Value run_atan(Call& call) {
-  return plain_result(call, math::arc_tangent, dimension::angle);
+  return plain_result(call, [](double x) { return atan2(x, 1); }, dimension::angle);
 }
 
 // The common dimension of all arguments; numbers only. nullopt: reported.
@@ -84,7 +92,7 @@ Value run_atan2(Call& call) {
   if (!common(call)) return {};
   if (!call.known) return make_unknown(Type::number, dimension::angle);
   if (call[0].real() == 0 && call[1].real() == 0) return call.outside(0, "`y` or `x` other than 0");
-  return make_number(math::arc_tangent(call[0].real(), call[1].real()), dimension::angle);
+  return make_number(atan2(call[0].real(), call[1].real()), dimension::angle);
 }
 
 Value run_sqrt(Call& call) {
@@ -125,16 +133,15 @@ Value run_pow(Call& call) {
     return call.outside(0, "a value other than 0 for a negative exponent");
   if (base < 0 && exponent != std::floor(exponent))
     return call.outside(0, "a value of at least 0 for a broken exponent");
-  return finite_number(call.session, math::power(base, exponent), dimension, call.span(),
-                       call.function);
+  return finite_number(call.session, pow(base, exponent), dimension, call.span(), call.function);
 }
 
 Value run_exp(Call& call) {
-  return plain_result(call, math::exponential);
+  return plain_result(call, exp);
 }
 Value run_log(Call& call) {
   if (call.known && !(call[0].real() > 0)) return call.outside(0, "a value above 0");
-  return plain_result(call, math::logarithm);
+  return plain_result(call, log);
 }
 
 Value run_abs(Call& call) {

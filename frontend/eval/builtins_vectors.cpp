@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "frontend/eval/builtins.hpp"
+#include "frontend/eval/math.hpp"
 #include "frontend/eval/operators.hpp"
 
 namespace scenec::frontend {
 
 namespace {
 
-// Without overflow or underflow of the squares.
 double length_of(const Value& v) {
-  return std::hypot(v.n[0], v.n[1], v.is(Type::vec3) ? v.n[2] : 0.0);
+  return math::length({v.n[0], v.n[1], v.is(Type::vec3) ? v.n[2] : 0.0});
 }
 
 Value run_length(Call& call) {

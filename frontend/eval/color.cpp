@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "frontend/eval/math.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::frontend {
 
 double srgb_decoded(double encoded) {
   if (encoded <= 0.04045) return encoded / 12.92;
-  return math::power((encoded + 0.055) / 1.055, 2.4);
+  return pow((encoded + 0.055) / 1.055, 2.4);
 }
 
 namespace {
@@ -16,7 +16,7 @@ namespace {
 // Piecewise Gaussian: the building block of the fits below.
 double lobe(double wavelength, double peak, double left, double right) {
   const double t = (wavelength - peak) * (wavelength < peak ? left : right);
-  return math::exponential(-0.5 * t * t);
+  return exp(-0.5 * t * t);
 }
 
 // CIE 1931 colour matching functions, wavelength in nm; multi-lobe fits of Wyman, Sloan and
@@ -43,8 +43,8 @@ ir::Color blackbody(double kelvin) {
     const double u = second_radiation / (nm * kelvin);
     const double fifth = nm / 560.0;
     // e^reference / (e^u - 1), written so that neither power overflows.
-    const double planck = math::exponential(reference - u) / (1 - math::exponential(-u)) /
-                          (fifth * fifth * fifth * fifth * fifth);
+    const double planck =
+        exp(reference - u) / (1 - exp(-u)) / (fifth * fifth * fifth * fifth * fifth);
     const Xyz m = matching(nm);
     sum.x += planck * m.x;
     sum.y += planck * m.y;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/elementary.hpp"
 #include "frontend/check/invertible.hpp"
-#include "frontend/eval/math.hpp"
 
 namespace scenec::frontend {
 
@@ -38,7 +38,7 @@ std::optional<double> turn_about_y(const ir::Transform& transform) {
   const auto& m = transform.m;
   if (m[1] != 0 || m[4] != 0 || m[6] != 0 || m[9] != 0 || !(m[5] > 0)) return std::nullopt;
   if (!uniform_scale(transform) || ir::determinant(transform) < 0) return std::nullopt;
-  return math::arc_tangent(m[2], m[0]);
+  return atan2(m[2], m[0]);
 }
 
 // One overload a kind: moves it, or says what it needs.

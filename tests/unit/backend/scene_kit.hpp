@@ -9,7 +9,7 @@
 
 #include "backend/backend.hpp"
 #include "backend/math/color.hpp"
-#include "backend/math/elementary.hpp"
+#include "base/elementary.hpp"
 #include "ir/builder.hpp"
 
 namespace scenec::backend::test {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "frontend/eval/color.hpp"
 #include "frontend/eval/math.hpp"
@@ -25,7 +27,7 @@ TEST(Evaluate, numbers_and_dimensions) {
       {"1e3m", 1000, dimension::length},
       {"40mm", 0.04, dimension::length},
       {"5%", 0.05, {}},
-      {"180deg", math::pi, dimension::angle},
+      {"180deg", pi, dimension::angle},
       {"1 + 2 * 3", 7, {}, true},
       {"7 / 2", 3.5, {}},
       {"6 / 2", 3, {}},
@@ -47,8 +49,8 @@ TEST(Evaluate, numbers_and_dimensions) {
       {"sin(90deg)", 1, {}},
       {"cos(90deg)", 0, {}},
       {"sin(0)", 0, {}},
-      {"atan2(1m, 1m)", math::pi / 4, dimension::angle},
-      {"asin(1)", math::pi / 2, dimension::angle},
+      {"atan2(1m, 1m)", pi / 4, dimension::angle},
+      {"asin(1)", pi / 2, dimension::angle},
       {"abs(-3m)", 3, dimension::length},
       {"abs(-3)", 3, {}, true},
       {"min(3, 2, 5)", 2, {}, true},
@@ -183,6 +185,19 @@ TEST(Evaluate, rotations_by_quarter_turns_are_exact) {
   ASSERT_TRUE(turn.is(Type::transform));
   const ir::Transform expected{{0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1}};
   EXPECT_EQ(turn.transform(), expected);
+}
+
+// Bits, not nearness: an IR hash must not depend on the C library or the CPU.
+TEST(Evaluate, elementary_functions_give_the_same_bits_everywhere) {
+  const auto bits = [](const std::string& text) {
+    return std::bit_cast<std::uint64_t>(evaluated(text).value.real());
+  };
+  EXPECT_EQ(bits("sin(1rad)"), 0x3feaed548f090ceeULL);
+  EXPECT_EQ(bits("atan(2.0) / 1rad"), 0x3ff1b6e192ebbe44ULL);
+  EXPECT_EQ(bits("pow(2.7, 3.3)"), 0x403a83fa3634a624ULL);
+  EXPECT_EQ(bits("exp(1.1)"), 0x400808883244d593ULL);
+  EXPECT_EQ(bits("log(10)"), 0x40026bb1bbb55516ULL);
+  EXPECT_EQ(bits("length([1e200, 2e200, 3e200])"), 0x69938d7e31a50afeULL);
 }
 
 TEST(Evaluate, random_functions_stay_in_range) {

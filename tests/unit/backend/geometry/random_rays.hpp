@@ -5,11 +5,11 @@
 #include <cstdint>
 
 #include "backend/geometry/kernel.hpp"
-#include "backend/math/elementary.hpp"
 #include "backend/math/frame.hpp"
 #include "backend/math/rng.hpp"
 #include "backend/math/sampling.hpp"
 #include "backend/math/transform.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend::testing_support {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "backend/geometry/mesh.hpp"
-#include "backend/math/elementary.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend::testing_support {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "backend/lights/light_table.hpp"
-#include "backend/math/elementary.hpp"
 #include "backend/math/rng.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 namespace {

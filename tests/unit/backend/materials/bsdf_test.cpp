@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "backend/math/elementary.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 namespace {

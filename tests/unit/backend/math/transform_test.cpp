@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "backend/math/elementary.hpp"
 #include "backend/math/rng.hpp"
+#include "base/elementary.hpp"
 
 namespace scenec::backend {
 namespace {

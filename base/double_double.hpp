@@ -6,10 +6,10 @@
 // Error:      two_sum and two_product exact; add, multiply, divide within 2^-100 relative unless
 //             the sum cancels.
 // Degenerate: infinities and NaN give NaN.
-// Proof:      tests/unit/backend/math/elementary_test.cpp, through the functions built on it.
+// Proof:      tests/unit/base/elementary_test.cpp, through the functions built on it.
 #pragma once
 
-namespace scenec::backend {
+namespace scenec {
 
 struct DoubleDouble {
   double hi = 0;
@@ -64,4 +64,4 @@ struct DoubleDouble {
   return fast_two_sum(q, rest / b.hi);
 }
 
-}  // namespace scenec::backend
+}  // namespace scenec

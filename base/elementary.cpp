@@ -1,7 +1,7 @@
 // See elementary.hpp. Every function reduces its argument to a small one in double-double, sums the
 // large terms of the result with their errors and leaves only a tail below 2^-3 of it to plain
 // double arithmetic.
-#include "backend/math/elementary.hpp"
+#include "base/elementary.hpp"
 
 #include <array>
 #include <bit>
@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "backend/math/double_double.hpp"
+#include "base/double_double.hpp"
 
-namespace scenec::backend {
+namespace scenec {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -86,8 +86,6 @@ ReducedAngle reduce_angle(double x) {
   const DoubleDouble r = fast_two_sum(b.hi, b.lo + (a.lo - (second.lo + n * half_pi_third)));
   return {r, static_cast<int>(static_cast<std::int64_t>(n) & 3)};
 }
-
-constexpr double angle_limit = 0x1p48;
 
 constexpr std::array<DoubleDouble, 17> atan_of_sixteenths{{
     {0x0.0p+0, 0x0.0p+0},
@@ -292,4 +290,4 @@ double pow(double x, double y) {
   return sign * exp_of(fast_two_sum(p.hi, p.lo + l.lo * y));
 }
 
-}  // namespace scenec::backend
+}  // namespace scenec
