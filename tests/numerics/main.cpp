@@ -1,0 +1,28 @@
+// Runs the cases; with --docs=DIR also checks that DIR/numerics.md says what they found.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/numerics/document.hpp"
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  std::string docs;
+  constexpr std::string_view option = "--docs=";
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (!argument.starts_with(option)) {
+      std::fprintf(stderr, "usage: scenec-numerics [--docs=DIR] [--gtest_...]\n");
+      return 2;
+    }
+    docs = argument.substr(option.size());
+  }
+  int result = RUN_ALL_TESTS();
+  std::vector<std::string> complaints;
+  if (!docs.empty() && !scenec::numerics::document_agrees(docs, complaints)) result = 1;
+  for (const std::string& complaint : complaints) std::fprintf(stderr, "%s\n", complaint.c_str());
+  return result;
+}
