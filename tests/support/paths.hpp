@@ -10,9 +10,7 @@
 
 namespace scenec::test {
 
-[[nodiscard]] inline std::filesystem::path source_directory() {
-  return SCENEC_SOURCE_DIR;
-}
+[[nodiscard]] std::filesystem::path source_directory();
 
 // The folder that holds `course/`: $SCENEC_CORPUS, else `../shared/corpus` beside the project.
 [[nodiscard]] inline std::optional<std::filesystem::path> find_corpus() {
