@@ -40,6 +40,7 @@ struct CompileOptions {
   std::optional<Frame> frame;               // none: the clock is its default
   std::optional<ir::Method> method;         // course only: replaces the method found by vocabulary
   bool library = false;                     // accept a file of declarations alone
+  bool camera_chosen = false;               // the caller picks one of several cameras
   std::uint64_t max_items = 2'000'000;
 };
 

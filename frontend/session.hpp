@@ -50,6 +50,16 @@ class Session {
     Session& session;
   };
 
+  // Inside a loop, function or macro that is being run: its body has been checked already.
+  [[nodiscard]] bool running() const { return running_ > 0 || !expansions_.empty(); }
+  struct Running {
+    explicit Running(Session& owner) : session(owner) { ++session.running_; }
+    ~Running() { --session.running_; }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    Session& session;
+  };
+
   // ---- diagnostics
   void report(Diagnostic diagnostic);  // adds "expanded from" notes
   // Reports and gives the poison value.
@@ -111,6 +121,7 @@ class Session {
     Span span;
   };
   int checking_ = 0;
+  int running_ = 0;
   std::vector<DiagnosticKind> allowed_;
   std::vector<Expansion> expansions_;
   ir::OriginId expansion_origin_;

@@ -58,7 +58,6 @@ struct kind_name : lex::name {};      // the kind of a material, light or camera
 struct member_name : lex::name {};
 struct type_name : lex::any_name {};
 struct path : lex::string {};
-struct message : lex::string {};
 struct word_in : lex::keyword<'i', 'n'> {};
 struct word_as : lex::keyword<'a', 's'> {};
 using word_for = lex::keyword<'f', 'o', 'r'>;
@@ -224,7 +223,7 @@ struct if_item : peg::seq<word_if, expect<expression>, expect<block>,
                           peg::opt<else_word_text, trivia, expect<else_branch>>>,
                  makes_node<Kind::if_item> {};
 struct assert_item : peg::seq<lex::keyword<'a', 's', 's', 'e', 'r', 't'>, expect<expression>,
-                              peg::opt<comma, expect<message>>, expect<semicolon>>,
+                              peg::opt<comma, expect<expression>>, expect<semicolon>>,
                      makes_node<Kind::assert_item> {};
 
 struct is_assign : peg::seq<peg::one<'='>, peg::not_at<peg::one<'='>>> {};

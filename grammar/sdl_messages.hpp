@@ -34,7 +34,6 @@ SCENEC_EXPECTS(kind_colon, "`:` and the kind", colon);
 SCENEC_EXPECTS(type, "a type", type);
 SCENEC_EXPECTS(assign, "`=`", assign);
 SCENEC_EXPECTS(path, "the path of a file in double quotes", give_up);
-SCENEC_EXPECTS(message, "a message in double quotes", give_up);
 SCENEC_EXPECTS(word_as, "`as` and a name", give_up);
 SCENEC_EXPECTS(word_in, "`in`", give_up);
 SCENEC_EXPECTS(range_mark, "`..` or `..<`", give_up);

@@ -30,6 +30,7 @@ frontend::CompileOptions compile_options_of(const Options& options) {
   result.dialect = options.dialect;
   result.method = options.method;
   result.library = options.verb != Verb::render;
+  result.camera_chosen = options.camera.has_value();
   if (options.max_items) result.max_items = static_cast<std::uint64_t>(*options.max_items);
   for (const NameAndValue& setting : options.settings) {
     result.params.push_back({.name = setting.name, .value = setting.value});

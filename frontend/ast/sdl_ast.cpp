@@ -9,6 +9,14 @@ NodeRef expression_of(NodeRef node) {
   return {};
 }
 
+NodeRef second_expression_of(NodeRef node) {
+  const NodeRef first = expression_of(node);
+  for (NodeRef child : node.children()) {
+    if (is_expression(child.kind()) && child != first) return child;
+  }
+  return {};
+}
+
 Field field_of(NodeRef node) {
   Field field;
   for (NodeRef child : node.children()) {

@@ -18,6 +18,8 @@ using grammar::SyntaxKind;
          kind != SyntaxKind::arguments && kind != SyntaxKind::argument;
 }
 [[nodiscard]] NodeRef expression_of(NodeRef node);
+// The one behind it: the message of an `assert`.
+[[nodiscard]] NodeRef second_expression_of(NodeRef node);
 
 // `name = expr`.
 struct Field {

@@ -40,7 +40,7 @@ void choose_camera(Session& session, const SceneNotes& notes, ir::RenderSettings
   }
   const std::size_t count = session.builder.scene().cameras.size();
   if (count > 0) render.camera = ir::CameraId(0);
-  if (count < 2) return;
+  if (count < 2 || session.options.camera_chosen) return;
   session.error(Diagnostic(DiagnosticKind::several_cameras, notes.second_camera,
                            "the scene has several cameras, and `render` does not say which to use")
                     .note("the first is here", notes.first_camera)

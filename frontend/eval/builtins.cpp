@@ -81,6 +81,8 @@ Value accepted_input(Session& session, const Value& value, bool number_only, con
 }
 
 Value accepted_vector(Session& session, const Value& value, Accept accept, const Need& need) {
+  const bool of_one_size = accept == Accept::vec2 || accept == Accept::offset;
+  if (!of_one_size && may_be_vector(value)) return {};
   switch (accept) {
     case Accept::vec2:
       return coerce_vector(session, value, 2, dimension::none, need);

@@ -36,9 +36,36 @@ Value run_sum(Call& call) {
   return list.known ? total : type_of(total);
 }
 
+Value too_long_string(Call& call) {
+  return call.session.error(DiagnosticKind::string_too_long, call.span(),
+                            fmt::format("the string is longer than {} bytes", max_string_bytes));
+}
+
+Value string_result(Call& call, std::string text) {
+  if (!call.session.spend(text.size() / 8 + 1, call.span())) return {};
+  if (!call.known) return make_unknown(Type::string);
+  return make_string(std::move(text), call.span().file);
+}
+
+Value joined_strings(Call& call) {
+  std::string text;
+  for (std::size_t i = 0; i < call.arguments.size(); ++i) {
+    if (!call[i].is(Type::string))
+      return type_error(call.session, call.need(i), "a string", call[i]);
+    if (call.known) text += call[i].text();
+    if (text.size() > max_string_bytes) return too_long_string(call);
+  }
+  return string_result(call, std::move(text));
+}
+
+// Lists to one list, or strings to one string.
 Value run_concat(Call& call) {
+  if (call[0].is(Type::string)) return joined_strings(call);
   ValueList elements;
   for (std::size_t i = 0; i < call.arguments.size(); ++i) {
+    if (!is_listlike(call[i]))
+      return type_error(call.session, call.need(i), i == 0 ? "a list or a string" : "a list",
+                        call[i]);
     const std::size_t count = element_count(call[i]);
     if (!call.session.spend(count * steps_per_list_element, call.span())) return {};
     if (elements.size() + count > max_list_elements) {
@@ -48,9 +75,10 @@ Value run_concat(Call& call) {
     }
     for (std::size_t k = 0; k < count; ++k) elements.push_back(element_of(call[i], k));
   }
-  if (!call.known)
-    return elements.empty() ? make_unknown(Type::list) : type_of(make_list(std::move(elements)));
-  return checked_list(call.session, std::move(elements), call.node, {});
+  if (elements.empty()) return call.known ? make_list({}) : make_unknown_list({});
+  const Value pattern = type_of(elements.front());
+  const Value list = checked_list(call.session, std::move(elements), call.node, {});
+  return call.known || list.poisoned() ? list : make_unknown_list(pattern);
 }
 
 std::string text_of_value(const Value& value) {
@@ -88,15 +116,9 @@ Value run_str(Call& call) {
       return type_error(call.session, call.need(i), "a number, a truth value, a string or a vector",
                         value);
     if (call.known) text += text_of_value(value);
-    if (text.size() > max_string_bytes) {
-      return call.session.error(
-          DiagnosticKind::string_too_long, call.span(),
-          fmt::format("the string is longer than {} bytes", max_string_bytes));
-    }
+    if (text.size() > max_string_bytes) return too_long_string(call);
   }
-  if (!call.session.spend(text.size() / 8 + 1, call.span())) return {};
-  if (!call.known) return make_unknown(Type::string);
-  return make_string(std::move(text), call.span().file);
+  return string_result(call, std::move(text));
 }
 
 constexpr std::array<Parameter, 1> any_x{{{"x"}}};
@@ -105,7 +127,7 @@ constexpr std::array<Parameter, 1> one_list{{{"list", Accept::list}}};
 constexpr std::array<Builtin, 4> rows{{
     {"len", any_x, run_len},
     {"sum", one_list, run_sum},
-    {"concat", one_list, run_concat, true},
+    {"concat", any_x, run_concat, true},
     {"str", any_x, run_str, true},
 }};
 

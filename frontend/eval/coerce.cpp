@@ -96,7 +96,11 @@ std::optional<TypeRef> read_type(Session& session, NodeRef node) {
 }
 
 Value unknown_of(const TypeRef& type) {
-  if (type.list_depth > 0) return make_unknown(Type::list);
+  if (type.list_depth > 0) {
+    TypeRef element = type;
+    --element.list_depth;
+    return make_unknown_list(unknown_of(element));
+  }
   if (type.number_or_length) return {};  // numbers or lengths: nothing can be said of its parts
   return make_unknown(type.type, type.dimension);
 }
@@ -162,6 +166,11 @@ Value coerce_vector(Session& session, const Value& value, std::size_t size,
                     std::optional<Dimension> wanted, const Need& need) {
   if (value.poisoned()) return {};
   const Type type = size == 2 ? Type::vec2 : Type::vec3;
+  if (may_be_vector(value)) {
+    if (element_count(value) == 0) return wanted ? make_unknown(type, *wanted) : Value{};
+    const Dimension found = value.elements()[0].dimension;
+    return coerce_vector(session, make_unknown(type, found), size, wanted, need);
+  }
   if (!value.is(type)) {
     const bool lengths = wanted == dimension::length;
     return type_error(session, need,
@@ -218,7 +227,7 @@ Value coerce_list(Session& session, const Value& value, const TypeRef& type, con
   if (value.poisoned()) return {};
   if (!is_listlike(value))
     return type_error(session, need, fmt::format("a list (`{}`)", text_of(type)), value);
-  if (value.is(Type::list) && value.heap == nullptr) return value;
+  if (value.is(Type::list) && value.heap == nullptr) return unknown_of(type);
   TypeRef element_type = type;
   --element_type.list_depth;
   ValueList elements;

@@ -27,6 +27,8 @@ class Evaluator {
   // False when one is wrong (reported).
   bool bind_arguments(grammar::NodeRef parameters, grammar::NodeRef arguments,
                       grammar::NodeRef call, std::string_view callee, Scope& caller, Scope& into);
+  // The defaults of the parameters against their own ranges, called or not.
+  void check_defaults(grammar::NodeRef parameters, Scope& scope);
   // Every parameter with nothing but its type known.
   void bind_unknown_parameters(grammar::NodeRef parameters, Scope& into);
   // Value against the `in` range behind a param or parameter; poison (reported) outside of it.
@@ -43,6 +45,8 @@ class Evaluator {
   // (reported); nullopt when the name is no namespace.
   [[nodiscard]] std::optional<Scope*> name_space(grammar::NodeRef name, Scope& scope);
   Scope::Found resolve_in(Scope& name_space, grammar::NodeRef space, grammar::NodeRef name);
+  // Lints a name about to be declared in `scope` that hides one further out or a built-in one.
+  void lint_hiding(grammar::NodeRef name, Scope& scope);
   // Whether a function or macro is being run already; a call from inside is recursion.
   [[nodiscard]] bool is_active(grammar::NodeRef declaration) const;
   struct Activating {

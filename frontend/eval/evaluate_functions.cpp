@@ -140,11 +140,30 @@ void Evaluator::bind_unknown_parameters(NodeRef parameter_list, Scope& into) {
               .note("first declared here", before->span));
       continue;
     }
+    lint_hiding(parameter.name, into);
     into.add(parameter_binding(parameter, std::move(value)));
   }
 }
 
+void Evaluator::check_defaults(NodeRef parameter_list, Scope& scope) {
+  if (session_.checking_only()) return;  // a default may depend on what is not known here
+  Scope inside(&scope);
+  for (const ast::Item& parameter : parameters_of(parameter_list)) {
+    if (!parameter.name || inside.find_here(parameter.name.text()) != nullptr) continue;
+    const auto type = read_type(session_, parameter.type);
+    if (type && parameter.expression && parameter.range) {
+      const Need need{
+          .subject = parameter.name.text(), .function = {}, .node = parameter.expression};
+      const Value value = coerce(session_, evaluate(parameter.expression, inside), *type, need);
+      static_cast<void>(in_range(value, parameter.range, inside, parameter.name.text(),
+                                 parameter.expression.span()));
+    }
+    inside.add(parameter_binding(parameter, type ? unknown_of(*type) : Value{}));
+  }
+}
+
 void Evaluator::check_function(NodeRef function, Scope& scope) {
+  check_defaults(ast::item_of(function).parameters, scope);
   const Session::CheckOnly check(session_);
   const Activating activating(*this, function);
   const ast::Item parts = ast::item_of(function);

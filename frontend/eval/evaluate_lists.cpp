@@ -94,12 +94,7 @@ Value Evaluator::comprehension(NodeRef node, Scope& scope) {
     const bool unknown = !elements.empty() && !elements.front().known;
     if (!unknown) return checked_list(session_, std::move(elements), node, {});
   }
-  Value pattern = make_unknown(Type::list);
-  if (!elements.empty()) {
-    pattern = type_of(make_list({type_of(elements.front()), type_of(elements.front()),
-                                 type_of(elements.front()), type_of(elements.front())}));
-  }
-  return pattern;
+  return make_unknown_list(elements.empty() ? Value{} : type_of(elements.front()));
 }
 
 // The scope of the variables lives as long as the loop; each round gives them new values.
@@ -118,6 +113,7 @@ void Evaluator::declare_variables(const ast::Loop& parts, Scope& round) {
                     .value = {},
                     .node = {}};
     binding.lint_unused = false;
+    lint_hiding(name, round);
     round.add(std::move(binding));
   }
 }

@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "frontend/eval/evaluate.hpp"
+#include "ir/render_settings.hpp"
 
 namespace scenec::frontend {
 
@@ -32,7 +33,28 @@ bool declares(SyntaxKind kind) {
   }
 }
 
+bool hides_built_in(std::string_view name) {
+  constexpr auto filters = ir::EnumNames<ir::FilterKind>::names;  // of use in one place only
+  if (std::find(filters.begin(), filters.end(), name) != filters.end()) return false;
+  return find_constant(name).has_value() || find_builtin(name) != nullptr || name == "select";
+}
+
 }  // namespace
+
+void Evaluator::lint_hiding(NodeRef name, Scope& scope) {
+  if (session_.running()) return;  // said where it is written
+  const std::string_view word = name.text();
+  const Binding* const outer =
+      scope.parent() != nullptr ? scope.parent()->find(word, name.span()).binding : nullptr;
+  if (outer == nullptr && !hides_built_in(word)) return;
+  Diagnostic diagnostic(
+      DiagnosticKind::shadowed_name, name.span(),
+      outer != nullptr
+          ? fmt::format("`{}` hides an outer {}", printable(word), text_of(outer->kind))
+          : fmt::format("`{}` hides a built-in name", printable(word)));
+  if (outer != nullptr) diagnostic.notes.push_back({"the outer one is declared here", outer->span});
+  session_.lint(std::move(diagnostic));
+}
 
 // A declaration of the name further down (or around the use): the file is searched only when
 // something is wrong already.
@@ -206,7 +228,7 @@ std::span<const std::string_view> members_of(const Value& value) {
 
 Value Evaluator::member(const Value& value, NodeRef node) {
   const NodeRef name = node.find_child(SyntaxKind::name);
-  if (!name) return {};
+  if (!name || may_be_vector(value)) return {};
   const auto members = members_of(value);
   const auto place = std::find(members.begin(), members.end(), name.text());
   if (place == members.end()) {

@@ -17,11 +17,6 @@ bool same_family(const Value& a, const Value& b) {
   return a.type == b.type || (colored(a) && colored(b));
 }
 
-// `[0.5, red]`: a stop of a ramp.
-bool is_ramp_stop(const ValueList& elements) {
-  return elements.size() == 2 && elements[0].is_number() && elements[1].is(Type::color);
-}
-
 // Gives plain numbers (and vectors of them) the dimension of the first sibling that has one.
 bool unify(Session& session, ValueList& elements, NodeRef list, std::span<const NodeRef> nodes) {
   std::size_t pattern = 0;

@@ -219,7 +219,7 @@ Value texture_arithmetic(Session& session, const Value& a, const Value& b, const
 }  // namespace
 
 Value arithmetic(Session& session, const Value& a, const Value& b, const Operation& where) {
-  if (a.poisoned() || b.poisoned()) return {};
+  if (a.poisoned() || b.poisoned() || may_be_vector(a) || may_be_vector(b)) return {};
   if (a.is_number() && b.is_number()) return number_arithmetic(session, a, b, where);
   if (a.is(Type::texture) || b.is(Type::texture)) return texture_arithmetic(session, a, b, where);
   const bool vectors = (a.is_vector() || a.is_number()) && (b.is_vector() || b.is_number());
@@ -231,7 +231,7 @@ Value arithmetic(Session& session, const Value& a, const Value& b, const Operati
 }
 
 Value negated(Session& session, const Value& value, Span span) {
-  if (value.poisoned()) return {};
+  if (value.poisoned() || may_be_vector(value)) return {};
   if (value.is(Type::integer)) {
     if (!value.known) return value;
     if (value.integer == std::numeric_limits<std::int64_t>::min()) {
@@ -289,7 +289,7 @@ Value number_comparison(Session& session, const Value& a, const Value& b, const 
 }  // namespace
 
 Value comparison(Session& session, const Value& a, const Value& b, const Operation& where) {
-  if (a.poisoned() || b.poisoned()) return {};
+  if (a.poisoned() || b.poisoned() || may_be_vector(a) || may_be_vector(b)) return {};
   if (a.is_number() && b.is_number()) return number_comparison(session, a, b, where);
   const bool equality = where.op == "==" || where.op == "!=";
   const bool comparable = a.is(Type::boolean) || a.is(Type::string) || a.is(Type::color) ||

@@ -167,11 +167,33 @@ Value type_of(const Value& value) {
   copy.integer = 0;
   if (!value.is(Type::list)) {
     copy.heap = nullptr;
-  } else if (value.heap != nullptr && !value.elements().empty()) {
-    copy = on_heap(Type::list, ValueList{type_of(value.elements().front())});
-    copy.known = false;
+    return copy;
   }
+  if (value.heap == nullptr || value.elements().empty()) return make_unknown_list({});
+  const ValueList& elements = value.elements();
+  if (!is_ramp_stop(elements)) return make_unknown_list(type_of(elements.front()));
+  copy = on_heap(Type::list, ValueList{type_of(elements[0]), type_of(elements[1])});
+  copy.known = false;
   return copy;
+}
+
+Value make_unknown_list(const Value& pattern) {
+  Value list = make_unknown(Type::list);
+  if (!pattern.poisoned()) list = on_heap(Type::list, ValueList{pattern});
+  list.known = false;
+  return list;
+}
+
+bool has_any_length(const Value& value) {
+  return value.is(Type::list) && !value.known && element_count(value) < 2;
+}
+
+bool may_be_vector(const Value& value) {
+  return has_any_length(value) && (element_count(value) == 0 || value.elements()[0].is_number());
+}
+
+bool is_ramp_stop(const ValueList& elements) {
+  return elements.size() == 2 && elements[0].is_number() && elements[1].is(Type::color);
 }
 
 bool is_listlike(const Value& value) {

@@ -96,8 +96,17 @@ struct Heap {
 [[nodiscard]] Value make_filter(std::int64_t kind, double radius);
 // A value of which only the type is known.
 [[nodiscard]] Value make_unknown(Type type, Dimension dimension = {});
-// The same type without the payload; lists keep one element as the pattern of all.
+// The same type without the payload; lists keep one element as the pattern of all (stops of a ramp
+// both of theirs).
 [[nodiscard]] Value type_of(const Value& value);
+// A list of which only the pattern of its elements is known; poison: not even that.
+[[nodiscard]] Value make_unknown_list(const Value& pattern);
+// Of a list of any length, as those two give it: element_count is not the number of its elements.
+[[nodiscard]] bool has_any_length(const Value& value);
+// Of such a list that serves as a vector if it turns out to have two or three elements.
+[[nodiscard]] bool may_be_vector(const Value& value);
+// `[0.5, red]`: the one list whose elements differ in type.
+[[nodiscard]] bool is_ramp_stop(const ValueList& elements);
 
 // Number of elements of a list or vector, and one of them.
 [[nodiscard]] bool is_listlike(const Value& value);

@@ -2,6 +2,8 @@
 // while it runs, only values are looked at again.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "base/text.hpp"
 #include "frontend/eval/operators.hpp"
 #include "frontend/lower/lowering_access.hpp"
@@ -9,18 +11,6 @@
 namespace scenec::frontend {
 
 using grammar::SyntaxKind;
-
-namespace {
-
-struct Counting {
-  explicit Counting(int& counter) : count(counter) { ++count; }
-  ~Counting() { --count; }
-  Counting(const Counting&) = delete;
-  Counting& operator=(const Counting&) = delete;
-  int& count;
-};
-
-}  // namespace
 
 // The block in a scope of its own.
 void Lowering::body(NodeRef block, Scope& scope, const Surroundings& around) {
@@ -36,12 +26,12 @@ void Lowering::for_loop(NodeRef node, Scope& scope, const Surroundings& around) 
     body(parts.body, variables, around);
     return !session_.out_of_steps() && session_.item_count() <= session_.options.max_items;
   };
-  if (!running()) {
+  if (!session_.running()) {
     const Session::CheckOnly check(session_);
     evaluator_.loop(parts, scope, round);
   }
   if (session_.checking_only()) return;
-  const Counting run(running_);
+  const Session::Running run(session_);
   evaluator_.loop(parts, scope, round);
 }
 
@@ -50,7 +40,7 @@ void Lowering::if_chain(NodeRef node, Scope& scope, const Surroundings& around) 
   bool decided = false;
   const auto branch = [&](NodeRef block, bool taken) {
     if (taken) return body(block, scope, around);
-    if (running()) return;
+    if (session_.running()) return;
     const Session::CheckOnly check(session_);
     body(block, scope, around);
   };
@@ -64,7 +54,7 @@ void Lowering::if_chain(NodeRef node, Scope& scope, const Surroundings& around) 
     const NodeRef test = ast::expression_of(at);
     Value truth;
     if (decided) {
-      if (!running()) {
+      if (!session_.running()) {
         const Session::CheckOnly check(session_);
         truth = condition(session_, evaluator_.evaluate(test, scope), "if", test);
       }
@@ -85,12 +75,16 @@ void Lowering::assertion(NodeRef node, Scope& scope) {
   const NodeRef test = ast::expression_of(node);
   if (!test) return;
   const Value truth = condition(session_, evaluator_.evaluate(test, scope), "assert", test);
-  if (truth.poisoned() || !truth.known || truth.boolean()) return;
-  // The message is a bare string token; a string literal as the condition is a type error above.
-  const NodeRef message = node.find_child(SyntaxKind::string);
-  session_.error(DiagnosticKind::assertion_failed, test.span(),
-                 message ? printable(decoded_string(message.text()), 400)
-                         : std::string("the assertion does not hold"));
+  const bool fails = !truth.poisoned() && truth.known && !truth.boolean();
+  std::string text = "the assertion does not hold";
+  if (const NodeRef words = ast::second_expression_of(node)) {
+    std::optional<Session::CheckOnly> check;  // of an unused message only the type matters
+    if (!fails) check.emplace(session_);
+    const Value message = accepted(session_, evaluator_.evaluate(words, scope), Accept::string,
+                                   {.subject = "assert", .node = words});
+    if (message.is(Type::string) && message.known) text = printable(message.text(), 400);
+  }
+  if (fails) session_.error(DiagnosticKind::assertion_failed, test.span(), std::move(text));
 }
 
 void Lowering::macro_call(NodeRef node, Scope& scope, const Surroundings& around) {
@@ -132,7 +126,6 @@ void Lowering::macro_call(NodeRef node, Scope& scope, const Surroundings& around
   if (!sound || session_.checking_only() || !parts.block) return;
   const Evaluator::Activating activating(evaluator_, declaration);
   const Session::Expanding expanding(session_, name.text(), node.span());
-  const Counting run(running_);
   body(parts.block, inside, around);
 }
 

@@ -11,16 +11,6 @@ namespace scenec::frontend {
 
 using grammar::SyntaxKind;
 
-namespace {
-
-bool hides_built_in(std::string_view name) {
-  constexpr auto filters = ir::EnumNames<ir::FilterKind>::names;  // of use in one place only
-  if (std::find(filters.begin(), filters.end(), name) != filters.end()) return false;
-  return find_constant(name).has_value() || find_builtin(name) != nullptr;
-}
-
-}  // namespace
-
 void Lowering::declare(Scope& scope, NodeRef name, BindingKind kind, Value value, NodeRef node) {
   const std::string_view word = name.text();
   if (const Binding* first = scope.find_here(word)) {
@@ -29,18 +19,7 @@ void Lowering::declare(Scope& scope, NodeRef name, BindingKind kind, Value value
                        .note("first declared here", first->span));
     return;
   }
-  if (!running()) {
-    const Binding* outer =
-        scope.parent() != nullptr ? scope.parent()->find(word, name.span()).binding : nullptr;
-    Diagnostic diagnostic(
-        DiagnosticKind::shadowed_name, name.span(),
-        outer != nullptr
-            ? fmt::format("`{}` hides an outer {}", printable(word), text_of(outer->kind))
-            : fmt::format("`{}` hides a built-in name", printable(word)));
-    if (outer != nullptr)
-      diagnostic.notes.push_back({"the outer one is declared here", outer->span});
-    if (outer != nullptr || hides_built_in(word)) session_.lint(std::move(diagnostic));
-  }
+  evaluator_.lint_hiding(name, scope);
   Binding binding{
       .name = word, .span = name.span(), .kind = kind, .value = std::move(value), .node = node};
   binding.lint_unused = !session_.is_allowed(DiagnosticKind::unused_declaration);
@@ -48,7 +27,7 @@ void Lowering::declare(Scope& scope, NodeRef name, BindingKind kind, Value value
 }
 
 void Lowering::close(Scope& scope) {
-  if (running()) return;
+  if (session_.running()) return;
   for (const Binding& binding : scope.bindings()) {
     if (binding.used || !binding.lint_unused) continue;
     unused_.emplace_back(
@@ -139,9 +118,10 @@ void Lowering::declare_function(NodeRef node, Scope& scope, BindingKind kind) {
   const ast::Item parts = ast::item_of(node);
   if (!parts.name) return;
   declare(scope, parts.name, kind, {}, node);
-  if (running()) return;
+  if (session_.running()) return;
   if (kind == BindingKind::function) return evaluator_.check_function(node, scope);
   if (!parts.block) return;
+  evaluator_.check_defaults(parts.parameters, scope);
   const Session::CheckOnly check(session_);
   const Evaluator::Activating activating(evaluator_, node);
   Scope inside(&scope);

@@ -110,14 +110,11 @@ class Lowering final : public FieldCollector {
   void assertion(NodeRef node, Scope& scope);
   void macro_call(NodeRef node, Scope& scope, const Surroundings& around);
   void body(NodeRef block, Scope& scope, const Surroundings& around);
-  // Inside a loop or macro that is being run: its body has been checked already.
-  [[nodiscard]] bool running() const { return running_ > 0; }
 
   Session& session_;
   Evaluator evaluator_;
   std::deque<Fields> field_pool_;  // one a level of nesting, reused
   std::size_t field_depth_ = 0;
-  int running_ = 0;
   FileId main_file_;
   Span clock_;  // name of the `@clock` param; invalid: none
   SceneNotes notes_;

@@ -67,7 +67,7 @@ TEST(ParseSdl, control) {
   EXPECT_EQ(
       item("if a { } else if b { } else { }"),
       "(if_item if (name_ref a) (block) else (if_item if (name_ref b) (block) else (block)))");
-  EXPECT_EQ(item("assert a, \"m\";"), "(assert_item assert (name_ref a) \"m\")");
+  EXPECT_EQ(item("assert a, \"m\";"), "(assert_item assert (name_ref a) (string_literal \"m\"))");
   EXPECT_EQ(item("@a @b(1) sphere { }"),
             "(shape (annotation a) (annotation b (arguments (argument (number_literal 1)))) sphere "
             "(block))");
