@@ -16,7 +16,8 @@ RenderScene::RenderScene(const PreparedScene& prepared)
     : scene(prepared.scene),
       images(prepared.images),
       textures(*prepared.scene, images),
-      facts(*prepared.scene) {}
+      facts(*prepared.scene),
+      meshes(prepared.meshes) {}
 
 std::uint64_t path_key(const std::uint32_t* instances, std::uint32_t count, std::uint32_t item) {
   std::uint64_t key = mix_bits(item + 1);

@@ -29,7 +29,7 @@ void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& po
 void add_lights(const PreparedScene& prepared, RenderScene& scene);
 
 // The emitters of one shape, in the order of Hit::primitive; empty: cannot be sampled.
-[[nodiscard]] std::vector<Emitter> emitters_of(const PreparedScene& prepared,
+[[nodiscard]] std::vector<Emitter> emitters_of(const RenderScene& scene,
                                                const ir::ShapeRef& shape,
                                                const Transform& world_from_object);
 

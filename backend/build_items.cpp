@@ -65,10 +65,7 @@ class ItemAdder {
       const std::size_t proto = scene_.shape(*id).of.value();
       accel.add_instance(number, protos_[proto], place);
     } else if (const auto* mesh = std::get_if<Id<ir::Mesh>>(&item.shape)) {
-      accel.add_mesh(
-          number,
-          mesh_accel(*prepared_.meshes[mesh->value()], prepared_.meshes[mesh->value()].get()),
-          place, option);
+      accel.add_mesh(number, mesh_accel(mesh->value()), place, option);
     } else if (const auto* revolve = std::get_if<Id<ir::Revolve>>(&item.shape)) {
       accel.add_revolve(number, revolve_accel(*revolve), place, option);
     } else if (const auto* triangle = std::get_if<Id<ir::Triangle>>(&item.shape)) {
@@ -89,9 +86,12 @@ class ItemAdder {
       accel.add(number, kernel_of(scene_.shape(id)), place, option);
   }
 
-  std::shared_ptr<const MeshAccel> mesh_accel(const TriangleMesh& mesh, const void* key) {
-    auto& slot = meshes_[key];
-    if (!slot) slot = std::make_shared<MeshAccel>(mesh, pool_);
+  // Files that say the same share one mesh, and so one tree.
+  std::shared_ptr<const MeshAccel> mesh_accel(std::size_t index) {
+    const std::shared_ptr<const TriangleMesh>& mesh = prepared_.meshes[index];
+    auto& slot = meshes_[mesh.get()];
+    if (!slot) slot = std::make_shared<const MeshAccel>(mesh, pool_);
+    out_.meshes[index] = slot->shared_mesh();
     return slot;
   }
   std::shared_ptr<const Revolve> revolve_accel(Id<ir::Revolve> id) {

@@ -144,7 +144,7 @@ class LightAdder {
 
   void add_emissive(const ir::Item& item, std::uint32_t number, const Transform& place,
                     ir::MaterialId material) {
-    std::vector<Emitter> emitters = emitters_of(prepared_, item.shape, place);
+    std::vector<Emitter> emitters = emitters_of(out_, item.shape, place);
     if (emitters.empty()) return;
     const auto base = static_cast<std::uint32_t>(out_.lights.emitters.size());
     const bool textured = out_.facts.textured_emission(material);
@@ -253,9 +253,9 @@ class LightAdder {
 
 }  // namespace
 
-std::vector<Emitter> emitters_of(const PreparedScene& prepared, const ir::ShapeRef& shape,
+std::vector<Emitter> emitters_of(const RenderScene& out, const ir::ShapeRef& shape,
                                  const Transform& t) {
-  const ir::Scene& scene = *prepared.scene;
+  const ir::Scene& scene = *out.scene;
   if (const auto* id = std::get_if<Id<ir::Sphere>>(&shape))
     return {sphere(t, kernel_of(scene.shape(*id)))};
   if (const auto* id = std::get_if<Id<ir::Triangle>>(&shape)) {
@@ -273,8 +273,7 @@ std::vector<Emitter> emitters_of(const PreparedScene& prepared, const ir::ShapeR
   if (const auto* id = std::get_if<Id<ir::Box>>(&shape)) return box(t, kernel_of(scene.shape(*id)));
   if (const auto* id = std::get_if<Id<ir::Cylinder>>(&shape))
     return cylinder(t, kernel_of(scene.shape(*id)));
-  if (const auto* id = std::get_if<Id<ir::Mesh>>(&shape))
-    return mesh(t, *prepared.meshes[id->value()]);
+  if (const auto* id = std::get_if<Id<ir::Mesh>>(&shape)) return mesh(t, *out.meshes[id->value()]);
   return {};  // planes and surfaces of revolution: found by chance
 }
 

@@ -33,7 +33,8 @@ struct RenderScene {
   std::vector<std::shared_ptr<const DecodedImage>> images;
   TextureEvaluator textures;
   MaterialFacts facts;
-  std::optional<GgxAlbedo> ggx_albedo;  // only where a material needs it
+  std::vector<std::shared_ptr<const TriangleMesh>> meshes;  // by Id<ir::Mesh>, as they are traced
+  std::optional<GgxAlbedo> ggx_albedo;                      // only where a material needs it
   SceneAccel accel;
   std::vector<RenderItem> items;
   LightTable lights;

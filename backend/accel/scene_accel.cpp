@@ -1,9 +1,11 @@
 #include "backend/accel/scene_accel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "backend/accel/scene_data.hpp"
+#include "backend/accel/tree_build.hpp"
 #include "base/assert.hpp"
 
 namespace scenec::backend {
@@ -40,18 +42,10 @@ std::uint32_t push(std::vector<T>& values, T value) {
   return static_cast<std::uint32_t>(values.size() - 1);
 }
 
-std::vector<Bounds3> face_boxes(const TriangleMesh& mesh) {
-  std::vector<Bounds3> boxes(mesh.faces.size());
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) boxes[i] = bounds(triangle_of(mesh, i));
-  return boxes;
-}
-
 }  // namespace
 
-MeshAccel::MeshAccel(TriangleMesh mesh, ThreadPool& pool)
-    : mesh_(std::move(mesh)), bvh_(face_boxes(mesh_), pool) {}
-
-SceneAccel::SceneAccel() : data_(std::make_unique<Data>()) {}
+SceneAccel::SceneAccel()
+    : data_(std::make_unique<Data>()), kernels_(&query_kernels(Target::baseline)) {}
 SceneAccel::~SceneAccel() = default;
 SceneAccel::SceneAccel(SceneAccel&&) noexcept = default;
 SceneAccel& SceneAccel::operator=(SceneAccel&&) noexcept = default;
@@ -119,21 +113,75 @@ Bounds3 SceneAccel::Data::object_bounds(const PlacedItem& item) const {
     case ShapeKind::cylinder:
       return backend::bounds(cylinders[item.index]);
     case ShapeKind::mesh:
-      return meshes[item.index]->bvh().bounds();
+      return meshes[item.index]->bounds();
     case ShapeKind::revolve:
       return backend::bounds(*revolves[item.index]);
     case ShapeKind::instance: {
       const Data& world = of(*worlds[item.index]);
-      return world.unbounded.empty() ? world.bvh.bounds() : backend::bounds(Plane{});
+      return world.infinite ? backend::bounds(Plane{}) : world.tree.bounds;
     }
   }
   return {};
 }
 
-void SceneAccel::build(ThreadPool& pool) {
+namespace {
+
+// An item that alone makes the whole this many times larger is better kept out of the tree.
+constexpr double spoiling = 16;
+constexpr int max_apart = 8;
+// A shape takes longer than the boxes of a node.
+constexpr float node_cost_of_items = 0.5F;
+
+double reach_from(const Point3& middle, const Bounds3& b) {
+  return std::fmax(max_abs(b.min - middle), max_abs(b.max - middle));
+}
+
+// The boxes that are moved out of the tree, largest first.
+std::vector<std::size_t> spoiling_boxes(std::vector<Bounds3> boxes) {
+  std::vector<std::size_t> apart;
+  while (static_cast<int>(apart.size()) < max_apart && boxes.size() > apart.size() + 1) {
+    Vector3 sum;
+    for (const Bounds3& b : boxes)
+      if (!b.empty()) sum += as_vector(b.centroid()) / static_cast<double>(boxes.size());
+    std::size_t farthest = 0;
+    double reach = -1;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const double r = boxes[i].empty() ? -1 : reach_from(as_point(sum), boxes[i]);
+      if (r > reach) {
+        reach = r;
+        farthest = i;
+      }
+    }
+    Bounds3 all;
+    Bounds3 rest;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      all.grow(boxes[i]);
+      if (i != farthest) rest.grow(boxes[i]);
+    }
+    if (!(max_abs(rest.extent()) * spoiling < max_abs(all.extent()))) break;
+    apart.push_back(farthest);
+    boxes[farthest] = {};
+  }
+  return apart;
+}
+
+// One ulp outward beyond what rounding to tree space can cost.
+BuildRef ref_of(const TreeSpace& space, const Bounds3& box, std::uint32_t id) {
+  const Bounds3 b = outward({space.to_local(box.min), space.to_local(box.max)});
+  return {{float_below(b.min.x), float_below(b.min.y), float_below(b.min.z)},
+          id,
+          {float_above(b.max.x), float_above(b.max.y), float_above(b.max.z)},
+          0};
+}
+
+}  // namespace
+
+void SceneAccel::build(ThreadPool& pool, Target target) {
   Data& d = *data_;
   SCENEC_ASSERT(!d.built);
   d.built = true;
+  d.target = target;
+  kernels_ = &query_kernels(target);
   std::vector<PlacedItem> bounded;
   std::vector<Bounds3> boxes;
   bounded.reserve(d.items.size());
@@ -147,17 +195,35 @@ void SceneAccel::build(ThreadPool& pool) {
       boxes.push_back(box);
     } else {
       d.unbounded.push_back(item);
+      d.infinite = true;
     }
   }
-  d.bvh = Bvh(boxes, pool);
+  for (const Bounds3& b : boxes) d.tree.bounds.grow(b);
+  for (const std::size_t i : spoiling_boxes(boxes)) {
+    d.unbounded.push_back(bounded[i]);
+    boxes[i] = {};
+  }
+  Bounds3 inside;
+  for (const Bounds3& b : boxes) inside.grow(b);
+  d.tree.space = space_of(inside);
+  std::vector<BuildRef> refs;
+  refs.reserve(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    if (!boxes[i].empty()) refs.push_back(ref_of(d.tree.space, boxes[i], i));
+  BuildSettings settings;
+  settings.node_cost = node_cost_of_items;
+  BuiltTree built = build_tree(refs, settings, pool);
+  d.tree.root = built.root;
+  d.tree.empty = built.empty;
+  d.tree.nodes = std::move(built.nodes);
   // In leaf order, so that a leaf's items lie side by side.
   d.items.clear();
-  d.items.reserve(bounded.size());
-  for (const std::uint32_t i : d.bvh.order()) d.items.push_back(bounded[i]);
+  d.items.reserve(built.ids.size());
+  for (const std::uint32_t i : built.ids) d.items.push_back(bounded[i]);
 }
 
 Bounds3 SceneAccel::bounds() const {
-  return data_->bvh.bounds();
+  return data_->tree.bounds;
 }
 std::size_t SceneAccel::item_count() const {
   return data_->items.size() + data_->unbounded.size();

@@ -3,9 +3,12 @@
 //
 // Domain:     shapes valid in their kernel's sense; up to 2^32 - 1 items; instances nested at most
 //             Hit::max_instances deep.
-// Method:     a BVH over the items' world boxes with one array a kind and a switch at the leaf;
-//             meshes and instanced worlds bring their own tree; planes are a list beside it. Rays
-//             enter object space without renormalising, so every t compares with every other.
+// Method:     a wide tree over the items' world boxes with one array a kind and a switch at the
+// leaf;
+//             meshes and instanced worlds bring their own tree; planes are a list beside it, and
+//             the few items that are so much larger than the rest that they would spoil the tree's
+//             floats. Rays enter object space without renormalising, so every t compares with every
+//             other.
 // Error:      that of the kernels, plus the round trip through the item's transform, which
 //             Hit::error carries.
 // Degenerate: rays that are not traceable hit nothing; equal t goes to the smallest
@@ -14,16 +17,17 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <type_traits>
 #include <vector>
 
-#include "backend/accel/bvh.hpp"
+#include "backend/accel/mesh_accel.hpp"
+#include "backend/accel/target.hpp"
 #include "backend/geometry/box.hpp"
 #include "backend/geometry/cylinder.hpp"
 #include "backend/geometry/disk.hpp"
 #include "backend/geometry/kernel.hpp"
-#include "backend/geometry/mesh.hpp"
 #include "backend/geometry/plane.hpp"
 #include "backend/geometry/quad.hpp"
 #include "backend/geometry/revolve.hpp"
@@ -32,18 +36,6 @@
 #include "backend/math/transform.hpp"
 
 namespace scenec::backend {
-
-// A mesh with its tree; immutable, shared by every item that places it.
-class MeshAccel {
- public:
-  MeshAccel(TriangleMesh mesh, ThreadPool& pool);
-  [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
-  [[nodiscard]] const Bvh& bvh() const { return bvh_; }
-
- private:
-  TriangleMesh mesh_;
-  Bvh bvh_;
-};
 
 // Decides whether a hit on an item added with ItemOption::filtered counts (alpha cut-outs); a
 // refused hit lets the ray go on, within the same shape too. A reference to any callable
@@ -71,6 +63,14 @@ class HitFilter {
 
 enum class ItemOption : std::uint8_t { plain, filtered };
 
+// A hit without the surface there: all that a benchmark or a count of crossings needs.
+struct FoundHit {
+  double t = std::numeric_limits<double>::infinity();
+  std::uint32_t item = Hit::none;
+  std::uint32_t primitive = 0;
+};
+struct QueryKernels;
+
 class SceneAccel {
  public:
   using TransformIndex = std::uint32_t;
@@ -96,11 +96,13 @@ class SceneAccel {
   void add_instance(std::uint32_t item, std::shared_ptr<const SceneAccel> world,
                     TransformIndex place = identity);
 
-  // Once, after all items.
-  void build(ThreadPool& pool);
+  // Once, after all items. Hits do not depend on the target.
+  void build(ThreadPool& pool, Target target = best_target());
 
   // The closest hit in the ray's closed interval.
   [[nodiscard]] bool intersect(const Ray& ray, Hit& hit, const HitFilter& filter = {}) const;
+  // The same, without the surface; nothing is filtered.
+  [[nodiscard]] bool find(const Ray& ray, FoundHit& hit) const;
   // Whether anything is hit in it.
   [[nodiscard]] bool occluded(const Ray& ray, const HitFilter& filter = {}) const;
 
@@ -115,6 +117,7 @@ class SceneAccel {
 
  private:
   std::unique_ptr<Data> data_;
+  const QueryKernels* kernels_;  // of the chosen instruction set
 };
 
 }  // namespace scenec::backend

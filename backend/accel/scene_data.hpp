@@ -1,6 +1,7 @@
-// What a SceneAccel holds, shared by the file that fills it and the file that traces it.
+// What a SceneAccel holds, shared by the files that fill it and those that trace it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -43,14 +44,47 @@ struct SceneAccel::Data {
   std::vector<std::shared_ptr<const Revolve>> revolves;
   std::vector<std::shared_ptr<const SceneAccel>> worlds;
 
-  std::vector<PlacedItem> items;      // bounded ones in leaf order once built
-  std::vector<PlacedItem> unbounded;  // planes, and instances of worlds that have some
-  Bvh bvh;
+  std::vector<PlacedItem> items;      // in the order of the tree's leaves once built
+  std::vector<PlacedItem> unbounded;  // planes, instances of worlds that have some, and what is so
+                                      // much larger than the rest that it would spoil the tree
+  bool infinite = false;              // some of them are truly unbounded
+  WideTree tree;
+  Target target = Target::baseline;
   std::uint32_t depth = 0;  // levels of instances below
   bool built = false;
 
   [[nodiscard]] static const Data& of(const SceneAccel& accel) { return *accel.data_; }
   [[nodiscard]] Bounds3 object_bounds(const PlacedItem& item) const;
 };
+
+// An item and the world it is placed in.
+struct Placement {
+  const SceneAccel::Data* world;
+  const PlacedItem* item;
+};
+
+// From the outermost instance down to the shape. Without initial values: queries make many.
+struct ItemPath {
+  std::array<Placement, Hit::max_instances + 1> steps;
+  std::uint32_t size;
+
+  [[nodiscard]] const Placement& leaf() const { return steps[size - 1]; }
+};
+
+[[nodiscard]] Ray to_object(const Placement& place, const Ray& ray);
+// Kinds that have a kernel of their own: all but meshes and instances.
+[[nodiscard]] bool intersect_shape(const SceneAccel::Data& world, const PlacedItem& item,
+                                   const Ray& ray, ShapeHit& out);
+// What a query found, with the surface there.
+[[nodiscard]] Hit complete(const ItemPath& path, const Ray& world_ray, const ShapeHit& found);
+
+// The queries, compiled for one instruction set.
+enum class Walk : std::uint8_t { tree, brute_force };
+struct QueryKernels {
+  bool (*intersect)(const SceneAccel::Data&, const Ray&, const HitFilter&, Walk, Hit&);
+  bool (*find)(const SceneAccel::Data&, const Ray&, const HitFilter&, Walk, FoundHit&);
+  bool (*occluded)(const SceneAccel::Data&, const Ray&, const HitFilter&, Walk);
+};
+[[nodiscard]] const QueryKernels& query_kernels(Target target);
 
 }  // namespace scenec::backend

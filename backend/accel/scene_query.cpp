@@ -1,167 +1,78 @@
 // Tracing a SceneAccel: one walk serves closest and any hit, plain and filtered, tree and brute
-// force.
-#include <array>
+// force, and is compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "backend/accel/scene_query.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>  // IWYU pragma: keep: re-includes this file
+#include <hwy/highway.h>
+
 #include <cmath>
 #include <limits>
-#include <span>
 
-#include "backend/accel/bvh_traverse.hpp"
-#include "backend/accel/scene_accel.hpp"
 #include "backend/accel/scene_data.hpp"
+#include "backend/accel/traverse-inl.hpp"
+#include "base/assert.hpp"
 
+HWY_BEFORE_NAMESPACE();
 namespace scenec::backend {
-namespace {
+namespace HWY_NAMESPACE {  // NOLINT(readability-identifier-naming): Highway's
 
 enum class Want : std::uint8_t { closest, any };
-enum class Walk : std::uint8_t { tree, brute_force };
+enum class Filtering : std::uint8_t { none, some };
 
 using World = SceneAccel::Data;
 
-// An item and the world it is placed in.
-struct Placement {
-  const World* world = nullptr;
-  const PlacedItem* item = nullptr;
-};
-
-// From the outermost instance down to the shape.
-struct Path {
-  std::array<Placement, Hit::max_instances + 1> steps;
-  std::uint32_t size = 0;
-};
-
-Ray to_object(const Placement& place, const Ray& ray) {
-  if (place.item->transform == SceneAccel::identity) return ray;
-  const Transform& t = place.world->transforms[place.item->transform];
-  return {t.apply_inverse(ray.origin), t.apply_inverse(ray.direction), ray.t_min, ray.t_max};
-}
-
-Surface object_surface(const Placement& place, const Ray& ray, const ShapeHit& hit) {
-  const World& w = *place.world;
-  const std::uint32_t i = place.item->index;
-  switch (place.item->kind) {
-    case ShapeKind::sphere:
-      return surface(w.spheres[i], ray, hit);
-    case ShapeKind::plane:
-      return surface(w.planes[i], ray, hit);
-    case ShapeKind::triangle:
-      return surface(w.triangles[i], ray, hit);
-    case ShapeKind::quad:
-      return surface(w.quads[i], ray, hit);
-    case ShapeKind::disk:
-      return surface(w.disks[i], ray, hit);
-    case ShapeKind::box:
-      return surface(w.boxes[i], ray, hit);
-    case ShapeKind::cylinder:
-      return surface(w.cylinders[i], ray, hit);
-    case ShapeKind::mesh:
-      return surface(w.meshes[i]->mesh(), hit);
-    case ShapeKind::revolve:
-      return surface(*w.revolves[i], ray, hit);
-    case ShapeKind::instance:
-      break;
-  }
-  return {};
-}
-
-bool intersect_shape(const World& w, const PlacedItem& item, const Ray& ray, ShapeHit& out) {
-  switch (item.kind) {
-    case ShapeKind::sphere:
-      return intersect(w.spheres[item.index], ray, out);
-    case ShapeKind::plane:
-      return intersect(w.planes[item.index], ray, out);
-    case ShapeKind::triangle:
-      return intersect(w.triangles[item.index], ray, out);
-    case ShapeKind::quad:
-      return intersect(w.quads[item.index], ray, out);
-    case ShapeKind::disk:
-      return intersect(w.disks[item.index], ray, out);
-    case ShapeKind::box:
-      return intersect(w.boxes[item.index], ray, out);
-    case ShapeKind::cylinder:
-      return intersect(w.cylinders[item.index], ray, out);
-    case ShapeKind::revolve:
-      return intersect(*w.revolves[item.index], ray, out);
-    case ShapeKind::mesh:
-    case ShapeKind::instance:
-      break;
-  }
-  return false;
-}
-
-// One placement outward: from its object space to the space it is placed in.
-void to_outer(const Placement& place, Surface& s) {
-  if (place.item->transform == SceneAccel::identity) return;
-  const Transform& t = place.world->transforms[place.item->transform];
-  s.error = t.apply_abs(s.error) + t.round_trip_error(s.point);
-  s.point = t.apply(s.point);
-  s.geometric_normal = t.apply(s.geometric_normal);
-  s.shading_normal = t.apply(s.shading_normal);
-  s.dp_du = t.apply(s.dp_du);
-  s.dp_dv = t.apply(s.dp_dv);
-}
-
-Hit complete(const Path& path, const Ray& world_ray, const ShapeHit& found) {
-  Ray ray = world_ray;
-  for (std::uint32_t i = 0; i < path.size; ++i) ray = to_object(path.steps[i], ray);
-  const Placement& leaf = path.steps[path.size - 1];
-  Surface s = object_surface(leaf, ray, found);
-  for (std::uint32_t i = path.size; i-- > 0;) to_outer(path.steps[i], s);
-  Hit hit;
-  hit.t = found.t;
-  hit.item = leaf.item->item;
-  hit.primitive = found.part;
-  hit.instance_count = path.size - 1;
-  for (std::uint32_t i = 0; i + 1 < path.size; ++i) hit.instances[i] = path.steps[i].item->item;
-  const bool barycentric =
-      leaf.item->kind == ShapeKind::triangle || leaf.item->kind == ShapeKind::mesh;
-  hit.b1 = barycentric ? found.a : 0;
-  hit.b2 = barycentric ? found.b : 0;
-  hit.point = s.point;
-  hit.error = s.error;
-  hit.geometric_normal = normalized(s.geometric_normal);
-  hit.shading_normal = normalized(s.shading_normal, hit.geometric_normal);
-  hit.u = s.u;
-  hit.v = s.v;
-  hit.dp_du = s.dp_du;
-  hit.dp_dv = s.dp_dv;
-  return hit;
-}
-
+template <Want want, Filtering filtering>
 class Query {
  public:
-  Query(const Ray& ray, const HitFilter& filter, Want want, Walk walk)
-      : world_ray_(ray), filter_(filter), best_{ray.t_max, 0, 0, 0}, want_(want), walk_(walk) {}
+  HWY_INLINE Query(const Ray& ray, const HitFilter& filter, Walk walk)
+      : world_ray_(ray), filter_(filter), best_{ray.t_max, 0, 0, 0}, walk_(walk) {
+    path_.size = 0;
+  }
 
   // True when a search for any hit may stop.
   bool trace(const World& world, const Ray& ray) {
     for (const PlacedItem& item : world.unbounded)
       if (trace_item(world, item, ray)) return true;
-    if (walk_ == Walk::brute_force) {
-      for (const PlacedItem& item : world.items)
-        if (trace_item(world, item, ray)) return true;
-      return false;
-    }
-    const auto leaf = [&](std::uint32_t first, std::uint32_t count) {
-      for (std::uint32_t i = first; i < first + count; ++i)
-        if (trace_item(world, world.items[i], ray)) return true;
+    if (world.tree.empty) return false;
+    if (walk_ == Walk::brute_force) return trace_items(world, 0, world.items.size(), ray);
+    if (world.tree.root.is_leaf())
+      return trace_items(world, world.tree.root.first(), world.tree.root.count(), ray);
+    const LocalRay local = make_local(world.tree.space, ray);
+    BoxRay box;
+    if (!make_box_ray(local, box)) return false;
+    float limit = box.limit(local.t_max);
+    const auto leaf = [&](TreeRef ref) HWY_ATTR {
+      const double before = best_.t;
+      if (trace_items(world, ref.first(), ref.count(), ray)) return true;
+      if (best_.t != before) limit = box.limit(local.to_local(best_.t));
       return false;
     };
-    return visit_leaves(world.bvh, RayBoxTest(ray), ray.t_min, best_.t, leaf);
+    return walk < want == Want::any ? Order::any
+                                    : Order::nearest_first > (world.tree.nodes.data(),
+                                                              world.tree.root, box, limit, leaf);
   }
 
   [[nodiscard]] bool found() const { return found_; }
-  [[nodiscard]] Hit hit() const { return complete(best_path_, world_ray_, best_); }
+  [[nodiscard]] const ShapeHit& best() const { return best_; }
+  [[nodiscard]] const ItemPath& path() const { return best_path_; }
 
  private:
+  bool trace_items(const World& world, std::size_t first, std::size_t count, const Ray& ray) {
+    for (std::size_t i = first; i < first + count; ++i)
+      if (trace_item(world, world.items[i], ray)) return true;
+    return false;
+  }
+
   bool trace_item(const World& world, const PlacedItem& item, const Ray& ray) {
     path_.steps[path_.size++] = {&world, &item};
-    Ray local = to_object(path_.steps[path_.size - 1], ray);
+    Ray local = to_object(path_.leaf(), ray);
     local.t_max = best_.t;
     bool done = false;
     if (item.kind == ShapeKind::instance) {
       done = trace(World::of(*world.worlds[item.index]), local);
     } else if (item.kind == ShapeKind::mesh) {
-      done = trace_mesh(*world.meshes[item.index], item, local);
+      done = trace_mesh(world.meshes[item.index]->tree(), item, local);
     } else {
       done = trace_shape(world, item, local);
     }
@@ -181,30 +92,57 @@ class Query {
     return false;
   }
 
-  bool trace_mesh(const MeshAccel& mesh, const PlacedItem& item, const Ray& ray) {
-    const RayShear shear(ray);
-    const auto test_face = [&](std::uint32_t face) {
-      const TriangleMesh& m = mesh.mesh();
-      const Face& f = m.faces[face];
-      ShapeHit hit;
-      if (!intersect_triangle(shear, m.positions[f[0]], m.positions[f[1]], m.positions[f[2]],
-                              ray.t_min, best_.t, hit))
-        return false;
-      hit.part = face;
-      return improves(hit) && passes(item, hit) && accept(hit);
+  bool trace_mesh(const MeshTree& mesh, const PlacedItem& item, const Ray& ray) {
+    if (mesh.tree.empty) return false;
+    return mesh.full() ? trace_blocks(mesh.tree, mesh.full_blocks, item, ray)
+                       : trace_blocks(mesh.tree, mesh.blocks, item, ray);
+  }
+
+  template <class T>
+  bool trace_blocks(const WideTree& tree, const HugeVector<TriangleBlock<T>>& blocks,
+                    const PlacedItem& item, const Ray& ray) {
+    const LocalRay local = make_local(tree.space, ray);
+    BoxRay box;
+    if (!make_box_ray(local, box)) return false;
+    const TriangleTest test(local);
+    float limit = box.limit(local.t_max);
+    double best_t = local.t_max;
+    ShapeHit best;
+    bool found = false;
+    const auto hit = [&](double t, std::uint32_t face, double b1, double b2) HWY_ATTR {
+      if (t > best_t || (found && t == best_t && face >= best.part)) return false;
+      const ShapeHit candidate{local.to_world(t), face, b1, b2};
+      if (!(std::fabs(candidate.t) <= std::numeric_limits<double>::max())) return false;
+      if constexpr (filtering == Filtering::some) {
+        if (!improves(candidate) || !passes(item, candidate)) return false;
+      }
+      if constexpr (want == Want::any) {
+        accept(candidate);
+        return true;
+      }
+      found = true;
+      best = candidate;
+      best_t = t;
+      limit = box.limit(t);
+      return false;
     };
+    const auto leaf = [&](TreeRef ref) HWY_ATTR {
+      const TriangleBlock<T>* block = blocks.data() + ref.first();
+      for (std::uint32_t i = 0; i < ref.count(); ++i)
+        if (test(block[i], best_t, hit)) return true;
+      return false;
+    };
+    bool stopped = false;
     if (walk_ == Walk::brute_force) {
-      for (std::uint32_t i = 0; i < mesh.mesh().faces.size(); ++i)
-        if (test_face(i)) return true;
-      return false;
+      for (const TriangleBlock<T>& block : blocks)
+        if ((stopped = test(block, best_t, hit))) break;
+    } else {
+      stopped = walk < want == Want::any
+                    ? Order::any
+                    : Order::nearest_first > (tree.nodes.data(), tree.root, box, limit, leaf);
     }
-    const std::vector<std::uint32_t>& order = mesh.bvh().order();
-    const auto leaf = [&](std::uint32_t first, std::uint32_t count) {
-      for (std::uint32_t i = first; i < first + count; ++i)
-        if (test_face(order[i])) return true;
-      return false;
-    };
-    return visit_leaves(mesh.bvh(), RayBoxTest(ray), ray.t_min, best_.t, leaf);
+    if (found && improves(best)) accept(best);
+    return stopped;
   }
 
   // Nearer than the best so far, or as near and earlier in the caller's numbering.
@@ -222,50 +160,109 @@ class Query {
   }
 
   [[nodiscard]] bool passes(const PlacedItem& item, const ShapeHit& hit) const {
-    if (item.option == ItemOption::plain || !filter_.active()) return true;
+    if constexpr (filtering == Filtering::none) return true;
+    if (item.option == ItemOption::plain) return true;
     return filter_.keeps(complete(path_, world_ray_, hit));
   }
 
   bool accept(const ShapeHit& hit) {
     best_ = hit;
-    best_path_ = path_;
+    for (std::uint32_t i = 0; i < path_.size; ++i) best_path_.steps[i] = path_.steps[i];
+    best_path_.size = path_.size;
     found_ = true;
-    return want_ == Want::any;
+    return want == Want::any;
   }
 
-  Ray world_ray_;
+  const Ray& world_ray_;
   const HitFilter& filter_;
   ShapeHit best_;
-  Path path_;
-  Path best_path_;
+  ItemPath path_;
+  ItemPath best_path_;
   bool found_ = false;
-  Want want_;
   Walk walk_;
 };
 
-bool find_hit(const World& world, const Ray& ray, Hit& hit, const HitFilter& filter, Walk walk) {
-  if (!is_traceable(ray)) return false;
-  Query query(ray, filter, Want::closest, walk);
+template <Want want, Filtering filtering, class F>
+HWY_INLINE bool run(const World& world, const Ray& ray, const HitFilter& filter, Walk walk,
+                    F&& use) {
+  Query<want, filtering> query(ray, filter, walk);
   query.trace(world, ray);
-  if (query.found()) hit = query.hit();
+  if (query.found()) use(query);
   return query.found();
 }
 
-}  // namespace
+template <Want want, class F>
+HWY_INLINE bool run(const World& world, const Ray& ray, const HitFilter& filter, Walk walk,
+                    F&& use) {
+  if (!is_traceable(ray)) return false;
+  return filter.active() ? run<want, Filtering::some>(world, ray, filter, walk, use)
+                         : run<want, Filtering::none>(world, ray, filter, walk, use);
+}
+
+bool intersect_world(const World& world, const Ray& ray, const HitFilter& filter, Walk walk,
+                     Hit& hit) {
+  return run<Want::closest>(world, ray, filter, walk, [&](const auto& q) HWY_ATTR {
+    hit = complete(q.path(), ray, q.best());
+  });
+}
+
+bool find_in_world(const World& world, const Ray& ray, const HitFilter& filter, Walk walk,
+                   FoundHit& hit) {
+  return run<Want::closest>(world, ray, filter, walk, [&](const auto& q) HWY_ATTR {
+    hit = {q.best().t, q.path().leaf().item->item, q.best().part};
+  });
+}
+
+bool occluded_in_world(const World& world, const Ray& ray, const HitFilter& filter, Walk walk) {
+  return run<Want::any>(world, ray, filter, walk, [](const auto&) {});
+}
+
+const QueryKernels& kernels() {
+  static constexpr QueryKernels table{intersect_world, find_in_world, occluded_in_world};
+  return table;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace scenec::backend
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace scenec::backend {
+
+const QueryKernels& query_kernels(Target target) {
+  switch (target) {
+#if (HWY_TARGETS & HWY_AVX3) != 0
+    case Target::avx512:
+      return N_AVX3::kernels();
+#endif
+#if (HWY_TARGETS & HWY_AVX2) != 0
+    case Target::avx2:
+      return N_AVX2::kernels();
+#endif
+#if (HWY_TARGETS & HWY_SSE4) != 0
+    case Target::sse4:
+      return N_SSE4::kernels();
+#endif
+    default:
+      return HWY_STATIC_DISPATCH(kernels)();
+  }
+}
 
 bool SceneAccel::intersect(const Ray& ray, Hit& hit, const HitFilter& filter) const {
-  return find_hit(*data_, ray, hit, filter, Walk::tree);
+  return kernels_->intersect(*data_, ray, filter, Walk::tree, hit);
+}
+
+bool SceneAccel::find(const Ray& ray, FoundHit& hit) const {
+  return kernels_->find(*data_, ray, HitFilter{}, Walk::tree, hit);
 }
 
 bool SceneAccel::intersect_brute_force(const Ray& ray, Hit& hit, const HitFilter& filter) const {
-  return find_hit(*data_, ray, hit, filter, Walk::brute_force);
+  return kernels_->intersect(*data_, ray, filter, Walk::brute_force, hit);
 }
 
 bool SceneAccel::occluded(const Ray& ray, const HitFilter& filter) const {
-  if (!is_traceable(ray)) return false;
-  Query query(ray, filter, Want::any, Walk::tree);
-  query.trace(*data_, ray);
-  return query.found();
+  return kernels_->occluded(*data_, ray, filter, Walk::tree);
 }
 
 }  // namespace scenec::backend
+#endif

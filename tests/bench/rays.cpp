@@ -1,0 +1,269 @@
+#include "tests/bench/rays.hpp"
+
+#include <fmt/format.h>
+
+#include <time.h>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "backend/accel/scene_accel.hpp"
+#include "tests/bench/ray_dump.hpp"
+
+namespace scenec::bench {
+namespace {
+
+using backend::FoundHit;
+using backend::MeshAccel;
+using backend::Ray;
+using backend::SceneAccel;
+
+enum class Clock : std::uint8_t { wall, cpu };
+
+struct Arguments {
+  std::string dump;
+  std::string mesh;
+  unsigned threads = 1;
+  int repeat = 5;
+  int list = 0;
+  bool full_precision = false;
+  Clock clock = Clock::wall;
+  backend::Target target = backend::best_target();
+};
+
+bool parse(int count, char** words, Arguments& out) {
+  for (int i = 0; i < count; ++i) {
+    const std::string word = words[i];
+    const bool has_value = i + 1 < count;
+    if (word == "--precision-double") {
+      out.full_precision = true;
+    } else if (word == "--cpu-time") {
+      out.clock = Clock::cpu;
+    } else if (word.starts_with("--")) {
+      if (!has_value) return false;
+      const std::string value = words[++i];
+      if (word == "--mesh") {
+        out.mesh = value;
+      } else if (word == "--threads") {
+        out.threads = static_cast<unsigned>(std::max(1, std::atoi(value.c_str())));
+      } else if (word == "--repeat") {
+        out.repeat = std::max(1, std::atoi(value.c_str()));
+      } else if (word == "--list") {
+        out.list = std::atoi(value.c_str());
+      } else if (word == "--target") {
+        const auto target = backend::find_target(value);
+        const auto all = backend::available_targets();
+        if (!target || std::find(all.begin(), all.end(), *target) == all.end()) return false;
+        out.target = *target;
+      } else {
+        return false;
+      }
+    } else {
+      out.dump = word;
+    }
+  }
+  return !out.dump.empty() && !out.mesh.empty();
+}
+
+// Processor time is the better measure where other programs share the machine.
+double now(Clock clock) {
+  if (clock == Clock::cpu) {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Ray ray_of(const DumpRay& r) {
+  const auto d = [](float x) { return static_cast<double>(x); };
+  return {{d(r.origin[0]), d(r.origin[1]), d(r.origin[2])},
+          {d(r.direction[0]), d(r.direction[1]), d(r.direction[2])},
+          d(r.t_near),
+          d(r.t_far)};
+}
+
+void trace(const SceneAccel& accel, const DumpSet& set, std::size_t first, std::size_t last,
+           std::vector<DumpHit>& out) {
+  for (std::size_t i = first; i < last; ++i) {
+    const Ray ray = ray_of(set.rays[i]);
+    if (set.any_hit) {
+      out[i] = {0, accel.occluded(ray) ? 1U : 0U};
+    } else {
+      FoundHit hit;
+      out[i] = accel.find(ray, hit) ? DumpHit{static_cast<float>(hit.t), hit.primitive}
+                                    : DumpHit{INFINITY, DumpHit::miss};
+    }
+  }
+}
+
+// Seconds; chunks of 4096 rays to whichever thread is free.
+double time_of(const SceneAccel& accel, const DumpSet& set, const Arguments& arguments,
+               std::vector<DumpHit>& out) {
+  std::atomic<std::size_t> next{0};
+  const std::size_t count = set.rays.size();
+  const auto work = [&] {
+    for (std::size_t first = 0; (first = next.fetch_add(4096)) < count;)
+      trace(accel, set, first, std::min(first + 4096, count), out);
+  };
+  const double start = now(arguments.clock);
+  {
+    std::vector<std::jthread> others;
+    for (unsigned i = 1; i < arguments.threads; ++i) others.emplace_back(work);
+    work();
+  }
+  return now(arguments.clock) - start;
+}
+
+std::uint64_t checksum_of(const std::vector<DumpHit>& hits) {
+  std::uint64_t hash = 1469598103934665603ULL;
+  for (const DumpHit& h : hits) hash = (hash ^ h.primitive) * 1099511628211ULL;
+  return hash;
+}
+
+// What float arithmetic may do to the recorded t: a few dozen roundings of the size of what is
+// subtracted.
+bool is_tie(const DumpRay& r, const DumpHit& a, const DumpHit& b) {
+  if (a.primitive == DumpHit::miss || b.primitive == DumpHit::miss) return false;
+  const float size = std::fabs(r.origin[0]) + std::fabs(r.origin[1]) + std::fabs(r.origin[2]);
+  return std::fabs(a.t - b.t) <= 0x1p-19F * (size + std::fabs(b.t));
+}
+
+// The nearest hit by the edge functions in long double over all triangles, for rays that differ.
+DumpHit oracle(const backend::TriangleMesh& mesh, const DumpRay& r, long double& margin) {
+  int z = 0;
+  for (int k = 1; k < 3; ++k)
+    if (std::fabs(r.direction[k]) > std::fabs(r.direction[z])) z = k;
+  const int x = (z + 1) % 3;
+  const int y = (z + 2) % 3;
+  DumpHit best{INFINITY, DumpHit::miss};
+  long double best_t = INFINITY;
+  const auto at = [&](const backend::Point3& p, int k) {
+    return static_cast<long double>(component(p, k)) - static_cast<long double>(r.origin[k]);
+  };
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    long double px[3], py[3], pz[3];
+    for (std::size_t v = 0; v < 3; ++v) {
+      const backend::Point3& p = mesh.positions[mesh.faces[f][v]];
+      pz[v] = at(p, z) / static_cast<long double>(r.direction[z]);
+      px[v] = at(p, x) - static_cast<long double>(r.direction[x]) * pz[v];
+      py[v] = at(p, y) - static_cast<long double>(r.direction[y]) * pz[v];
+    }
+    long double e[3];
+    long double nearest_edge = INFINITY;
+    for (int v = 0; v < 3; ++v) {
+      const int a = (v + 1) % 3;
+      const int b = (v + 2) % 3;
+      e[v] = px[b] * py[a] - py[b] * px[a];
+      nearest_edge =
+          std::fmin(nearest_edge, std::fabs(e[v]) / std::hypot(px[a] - px[b], py[a] - py[b]));
+    }
+    if ((e[0] < 0 || e[1] < 0 || e[2] < 0) && (e[0] > 0 || e[1] > 0 || e[2] > 0)) {
+      margin = std::fmin(margin, nearest_edge);
+      continue;
+    }
+    margin = std::fmin(margin, nearest_edge);
+    const long double det = e[0] + e[1] + e[2];
+    if (det == 0) continue;
+    const long double t = (e[0] * pz[0] + e[1] * pz[1] + e[2] * pz[2]) / det;
+    if (t < static_cast<long double>(r.t_near) || t > static_cast<long double>(r.t_far) ||
+        t >= best_t)
+      continue;
+    best_t = t;
+    best = {static_cast<float>(t), f};
+  }
+  return best;
+}
+
+struct Comparison {
+  std::size_t mismatches = 0;
+  std::size_t ties = 0;
+};
+
+std::string text_of(const DumpHit& h) {
+  return h.primitive == DumpHit::miss ? "miss" : fmt::format("{}@{:.9g}", h.primitive, h.t);
+}
+
+Comparison compare(const DumpSet& set, const std::vector<DumpHit>& ours,
+                   const backend::TriangleMesh& mesh, int list) {
+  Comparison result;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const DumpHit& a = ours[i];
+    const DumpHit& b = set.hits[i];
+    if (a.primitive == b.primitive) continue;
+    const bool tie = !set.any_hit && is_tie(set.rays[i], a, b);
+    ++(tie ? result.ties : result.mismatches);
+    if (tie || list-- <= 0) continue;
+    long double margin = INFINITY;
+    const DumpHit exact = oracle(mesh, set.rays[i], margin);
+    fmt::print("  differs {} ray {} ours {} recorded {} long_double {} nearest_edge {:.3g}\n",
+               set.name, i, text_of(a), text_of(b), text_of(exact), static_cast<double>(margin));
+  }
+  return result;
+}
+
+void run_set(const SceneAccel& accel, const DumpSet& set, const backend::TriangleMesh& mesh,
+             const Arguments& arguments) {
+  std::vector<DumpHit> hits(set.rays.size());
+  std::vector<double> seconds;
+  for (int i = 0; i < arguments.repeat; ++i)
+    seconds.push_back(time_of(accel, set, arguments, hits));
+  std::sort(seconds.begin(), seconds.end());
+  const double count = static_cast<double>(set.rays.size()) * 1e-6;
+  const Comparison c = compare(set, hits, mesh, arguments.list);
+  fmt::print(
+      "set {} mode single rays {} threads {} target {} mrays_best {:.3f} mrays_median {:.3f} "
+      "mismatches {} ties {} checksum {:016x}\n",
+      set.name, set.rays.size(), arguments.threads, name_of(arguments.target),
+      count / seconds.front(), count / seconds[seconds.size() / 2], c.mismatches, c.ties,
+      checksum_of(hits));
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int run_rays(int count, char** words) {
+  Arguments arguments;
+  if (!parse(count, words, arguments)) {
+    fmt::print(stderr,
+               "usage: scenec-bench rays DUMP --mesh FILE [--threads N] [--target "
+               "baseline|sse4|avx2|avx512|best] [--repeat N] [--list N]\n");
+    return 2;
+  }
+  const auto dump = read_ray_dump(arguments.dump);
+  auto mesh = read_bench_mesh(arguments.mesh);
+  if (!dump || !mesh || mesh->faces.size() != dump->triangles) {
+    fmt::print(stderr, "scenec-bench: cannot read {} and {}, or they do not fit together\n",
+               arguments.dump, arguments.mesh);
+    return 1;
+  }
+  ThreadPool pool(arguments.threads);
+  const auto shared = std::make_shared<const backend::TriangleMesh>(std::move(*mesh));
+  double best = INFINITY;
+  std::shared_ptr<const MeshAccel> built;
+  for (int i = 0; i < std::min(arguments.repeat, 3); ++i) {
+    built.reset();
+    const double start = now(arguments.clock);
+    built = std::make_shared<const MeshAccel>(shared, pool,
+                                              arguments.full_precision
+                                                  ? backend::MeshPrecision::full
+                                                  : backend::MeshPrecision::automatic);
+    best = std::min(best, now(arguments.clock) - start);
+  }
+  fmt::print("build seconds {:.4f} threads {} bytes_per_triangle {:.1f} nodes {} vertices {}\n",
+             best, pool.size(),
+             static_cast<double>(built->tree().bytes()) / static_cast<double>(shared->faces.size()),
+             built->tree().tree.nodes.size(), built->tree().full() ? "double" : "float");
+  SceneAccel accel;
+  accel.add_mesh(0, built);
+  accel.build(pool, arguments.target);
+  for (const DumpSet& set : dump->sets) run_set(accel, set, *shared, arguments);
+  return 0;
+}
+
+}  // namespace scenec::bench
