@@ -16,9 +16,10 @@ namespace {
 using Problem = std::optional<std::string>;
 
 constexpr VerbSet render_only{Verb::render};
-constexpr VerbSet compiling{Verb::render, Verb::check, Verb::dump};
-constexpr VerbSet reading{Verb::render, Verb::check, Verb::dump, Verb::convert, Verb::fmt};
-constexpr VerbSet diagnosing{Verb::render, Verb::check, Verb::dump, Verb::convert};
+constexpr VerbSet compiling{Verb::render, Verb::check, Verb::dump, Verb::explain};
+constexpr VerbSet reading{Verb::render,  Verb::check, Verb::dump,
+                          Verb::convert, Verb::fmt,   Verb::explain};
+constexpr VerbSet diagnosing{Verb::render, Verb::check, Verb::dump, Verb::convert, Verb::explain};
 constexpr VerbSet writing{Verb::render, Verb::dump, Verb::convert};
 
 constexpr std::int64_t largest_sample_count = 1048576;
@@ -144,9 +145,9 @@ constexpr std::array option_table{
                 return std::nullopt;
               },
               ValueNeed::none},
-    OptionRow{"--stage", "NAME", "tree, ast or ir (default)", VerbSet{Verb::dump},
+    OptionRow{"--stage", "NAME", "tree, ast, ir (default) or effects", VerbSet{Verb::dump},
               [](Options& o, Text v) {
-                constexpr std::array<Text, 3> names{"tree", "ast", "ir"};
+                constexpr std::array<Text, 4> names{"tree", "ast", "ir", "effects"};
                 return store_choice<DumpStage>(o.stage, v, names);
               }},
     OptionRow{"--root", "DIR", "read files beneath this directory only", diagnosing, store_root},
@@ -216,9 +217,11 @@ constexpr std::array option_table{
                 return std::nullopt;
               },
               ValueNeed::none},
-    OptionRow{"--json", "", "as JSON (default)", VerbSet{Verb::schema},
+    OptionRow{"--json", "", "as JSON (the default of schema)",
+              VerbSet{Verb::schema, Verb::explain},
               [](Options& o, Text) -> Problem {
                 o.markdown = false;
+                o.json = true;
                 return std::nullopt;
               },
               ValueNeed::none},

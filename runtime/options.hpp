@@ -22,7 +22,7 @@
 namespace scenec::runtime {
 
 enum class ProgressStyle : std::uint8_t { automatic, plain, json, none };
-enum class DumpStage : std::uint8_t { tree, ast, ir };
+enum class DumpStage : std::uint8_t { tree, ast, ir, effects };
 enum class DiagnosticsForm : std::uint8_t { text, json, sarif };
 enum class StatsForm : std::uint8_t { none, table, json };
 
@@ -67,6 +67,7 @@ struct Options {
   bool diff = false;
   bool list = false;
   bool markdown = false;
+  bool json = false;  // explain
 };
 
 class VerbSet {

@@ -14,11 +14,11 @@
 #include "backend/math/sampling.hpp"
 #include "backend/math/vec.hpp"
 #include "base/elementary.hpp"
+#include "ir/roughness.hpp"
 
 namespace scenec::backend {
 
-// Below it a surface is exactly specular (language rule).
-inline constexpr double specular_alpha = 1e-3;
+using ir::specular_alpha;
 
 // The density of facets with normal m, per unit of projected area.
 [[nodiscard]] inline double ggx_density(const Vector3& m, double alpha) {

@@ -4,8 +4,10 @@
 
 #include "base/file_system.hpp"
 #include "grammar/syntax_tree.hpp"
+#include "runtime/effect_report.hpp"
 #include "runtime/output.hpp"
 #include "runtime/session.hpp"
+#include "runtime/settings.hpp"
 #include "runtime/verbs.hpp"
 
 namespace scenec::runtime {
@@ -37,6 +39,12 @@ ExitCode verbs::dump(const Options& options, const Environment& environment) {
   }
   const auto scene = session.compile(*file);
   if (!scene || session.has_errors()) return session.finish(environment);
+  if (options.stage == DumpStage::effects) {
+    const auto settings = settings_of(options, *scene, environment);
+    if (!settings) return ExitCode::usage;
+    return write_text(options.output, effects_dump(ir::find_effects(*scene, *settings)), session,
+                      environment);
+  }
   const std::string text = ir::dump_text(*scene, {.directory = directory_of(options.output)});
   return write_text(options.output, text, session, environment);
 }

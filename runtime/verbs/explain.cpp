@@ -1,4 +1,5 @@
 // `scenec explain`: what a diagnostic means, found by its code or its name; needs no network.
+// `scenec explain effects SCENE`: which effects its picture is simulated with, and why.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +8,10 @@
 
 #include "base/diagnostic.hpp"
 #include "base/text.hpp"
+#include "runtime/effect_report.hpp"
 #include "runtime/options.hpp"
+#include "runtime/session.hpp"
+#include "runtime/settings.hpp"
 #include "runtime/verbs.hpp"
 
 namespace scenec::runtime {
@@ -52,11 +56,28 @@ ExitCode list_all(const Environment& environment) {
   return ExitCode::ok;
 }
 
+ExitCode explain_effects(const Options& given, const Environment& environment) {
+  Options options = given;
+  options.operands.erase(options.operands.begin());
+  Session session(options);
+  const auto file = session.load();
+  const auto scene = file ? session.compile(*file) : std::nullopt;
+  const ExitCode code = session.finish(environment);
+  if (!scene || code != ExitCode::ok) return code;
+  const auto settings = settings_of(options, *scene, environment);
+  if (!settings) return ExitCode::usage;
+  const ir::EffectReport report = ir::find_effects(*scene, *settings);
+  environment.out << (options.json ? effects_json(*scene, *settings, report, session.sources())
+                                   : effects_text(*scene, *settings, report, session.sources()));
+  return code;
+}
+
 }  // namespace
 
 ExitCode verbs::explain(const Options& options, const Environment& environment) {
   if (options.list) return list_all(environment);
   const std::string& wanted = options.operands.at(0);
+  if (wanted == "effects") return explain_effects(options, environment);
   if (const DiagnosticKindInfo* const kind = find_diagnostic(wanted)) {
     environment.out << fmt::format("{} {} ({}): {}\n\n{}", kind->code, kind->name,
                                    name_of(kind->severity), kind->title,
