@@ -13,6 +13,7 @@
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
 #include "base/parallel.hpp"
+#include "ir/effects.hpp"
 #include "ir/scene.hpp"
 
 namespace scenec::backend {
@@ -38,6 +39,10 @@ using RenderScenePtr = std::unique_ptr<RenderScene, Destroy>;
                                   DiagnosticSink& sink);
 
 [[nodiscard]] RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool);
+
+// What the picture depends on, images included, and why (ir/effects.hpp).
+[[nodiscard]] ir::EffectReport find_effects(const RenderScene& scene,
+                                            const ir::RenderSettings& settings);
 
 // `fraction` in [0, 1] of the work asked for; called from worker threads, at most every few ms.
 struct Progress {
@@ -65,6 +70,11 @@ struct Picture {
 // stop request it returns within milliseconds with the samples every pixel has in common.
 [[nodiscard]] Picture render(const RenderScene& scene, const ir::RenderSettings& settings,
                              ThreadPool& pool, std::stop_token stop,
+                             const ProgressFunction& progress);
+// The same with these effects instead of those the settings call for: for tests, which hold the
+// picture to depend on no others, and for pricing an effect.
+[[nodiscard]] Picture render(const RenderScene& scene, const ir::RenderSettings& settings,
+                             const ir::EffectSet& effects, ThreadPool& pool, std::stop_token stop,
                              const ProgressFunction& progress);
 
 // Bytes of the picture as a file. 8-bit formats apply exposure and tonemap (film .course:

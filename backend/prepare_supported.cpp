@@ -19,14 +19,6 @@ void refuse(DiagnosticSink& sink, Span where, const std::string& what, const std
                   .hint(instead));
 }
 
-void check_effects(const ir::Scene& scene, DiagnosticSink& sink) {
-  ir::visit_keys<ir::EffectSwitches>([&](const auto& key) {
-    if (scene.render.effects.*key.member == ir::EffectSwitch::automatic) return;
-    refuse(sink, span_of(scene, scene.render_origin), fmt::format("`{} = .off`", key.name),
-           "leave it at `.auto`: the picture shows every effect");
-  });
-}
-
 void check_layers(const ir::Scene& scene, DiagnosticSink& sink) {
   for (ir::Aov aov : scene.render.aovs) {
     if (aov != ir::Aov::trust) continue;
@@ -60,7 +52,6 @@ void check_textures(const ir::Scene& scene, DiagnosticSink& sink) {
 }  // namespace
 
 void check_supported(const ir::Scene& scene, DiagnosticSink& sink) {
-  check_effects(scene, sink);
   check_layers(scene, sink);
   check_solvers(scene, scene.items, sink);
   for (const ir::Proto& proto : scene.protos) check_solvers(scene, proto.items, sink);

@@ -60,15 +60,19 @@ class ProgressReporter {
 
 class Renderer {
  public:
-  Renderer(const RenderScene& scene, const ir::RenderSettings& settings, ThreadPool& pool,
-           std::stop_token stop, const ProgressFunction& progress)
+  Renderer(const RenderScene& scene, const ir::RenderSettings& settings,
+           const ir::EffectSet& effects, ThreadPool& pool, std::stop_token stop,
+           const ProgressFunction& progress)
       : scene_(scene),
         settings_(settings),
         pool_(pool),
         stop_(std::move(stop)),
         start_(Clock::now()),
         progress_(progress, start_),
-        camera_(scene.scene->cameras[settings.camera], settings.size),
+        effects_(effects),
+        camera_(scene.scene->cameras[settings.camera], settings.size,
+                effects_.has(ir::Effect::depth_of_field) ? CameraSampler::Lens::simulated
+                                                         : CameraSampler::Lens::left_out),
         filter_(settings.filter),
         film_(settings, settings.stop.error ? Film::Squares::yes : Film::Squares::no),
         cap_(sample_cap(settings)),
@@ -142,7 +146,7 @@ class Renderer {
 
   // False when a stop request came in between.
   bool render_tile(std::size_t tile, std::int64_t first, std::int64_t count, Worker& worker) {
-    const Tracer tracer(scene_, settings_, worker.rays);
+    const Tracer tracer(scene_, settings_, effects_, worker.rays);
     const std::size_t x0 = tile % tiles_x_ * tile_side;
     const std::size_t y0 = tile / tiles_x_ * tile_side;
     const std::size_t x1 = std::min(x0 + tile_side, film_.region_width());
@@ -203,6 +207,7 @@ class Renderer {
   std::stop_token stop_;
   Clock::time_point start_;
   ProgressReporter progress_;
+  ir::EffectSet effects_;
   CameraSampler camera_;
   FilterSampler filter_;
   Film film_;
@@ -217,8 +222,15 @@ class Renderer {
 
 Picture render(const RenderScene& scene, const ir::RenderSettings& settings, ThreadPool& pool,
                std::stop_token stop, const ProgressFunction& progress) {
+  return render(scene, settings, find_effects(scene, settings).simulated(), pool, std::move(stop),
+                progress);
+}
+
+Picture render(const RenderScene& scene, const ir::RenderSettings& settings,
+               const ir::EffectSet& effects, ThreadPool& pool, std::stop_token stop,
+               const ProgressFunction& progress) {
   SCENEC_ASSERT(settings.camera.valid());
-  return Renderer(scene, settings, pool, std::move(stop), progress).run();
+  return Renderer(scene, settings, effects, pool, std::move(stop), progress).run();
 }
 
 }  // namespace scenec::backend

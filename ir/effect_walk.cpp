@@ -223,8 +223,7 @@ class Walker {
       const Id<Light> id(i);
       std::visit([&](const auto& light) { add_light(light, id); }, scene_.lights[id].kind);
     }
-    if (settings_.method == Method::path && settings_.background != black &&
-        !walk_.surroundings) {
+    if (settings_.method == Method::path && settings_.background != black && !walk_.surroundings) {
       walk_.surroundings = true;
       walk_.surroundings_reason = "the background gives light";
       walk_.surroundings_origin = scene_.render_origin;

@@ -46,8 +46,8 @@ struct EffectWalk {
   std::uint64_t light_shapes = 0;  // lights that have a shape of their own
   OriginId second_light;
   OriginId area_light;
-  Id<Light> area_light_id;     // invalid: it is an emissive material
-  bool surroundings = false;   // light comes from outside
+  Id<Light> area_light_id;    // invalid: it is an emissive material
+  bool surroundings = false;  // light comes from outside
   std::string surroundings_reason;
   OriginId surroundings_origin;
 

@@ -84,8 +84,9 @@ class Finder {
 
   [[nodiscard]] std::string shapes_in_words() const {
     if (walk_.placements == 1) return "one shape";
-    return walk_.placements >= EffectWalk::many ? "every one of many shapes"
-                                                : fmt::format("each of {} shapes", walk_.placements);
+    return walk_.placements >= EffectWalk::many
+               ? "every one of many shapes"
+               : fmt::format("each of {} shapes", walk_.placements);
   }
 
   void interreflection() {
@@ -132,8 +133,8 @@ class Finder {
                "no placed material absorbs light inside");
       nested_media();
     } else {
-      for (const Effect effect : {Effect::reflection, Effect::refraction, Effect::absorption,
-                                  Effect::nested_media})
+      for (const Effect effect :
+           {Effect::reflection, Effect::refraction, Effect::absorption, Effect::nested_media})
         off(effect, none);
     }
     by_trait(Effect::glossy, Trait::glossy, "has a rough or Phong lobe",
@@ -175,8 +176,8 @@ class Finder {
                                           : fmt::format("there are {} lights", walk_.lights),
          walk_.second_light);
     else
-      off(Effect::many_lights, walk_.lights == 1 ? "there is one light to aim at"
-                                                 : "there is no light to aim at");
+      off(Effect::many_lights,
+          walk_.lights == 1 ? "there is one light to aim at" : "there is no light to aim at");
   }
 
   void lens() {

@@ -7,12 +7,6 @@ namespace scenec::ir {
 std::optional<Folding::Value> Folding::texture(TextureId id) const {
   const TextureKind& kind = scene_.textures[id].kind;
   if (const auto* t = std::get_if<ConstantTexture>(&kind)) return Value{t->color, 1};
-  if (const auto* t = std::get_if<ImageTexture>(&kind)) {
-    if (t->file.value() >= images_.size()) return std::nullopt;
-    const ImageFact& fact = images_[t->file.value()];
-    if (!fact.uniform || !fact.opaque) return std::nullopt;
-    return Value{*fact.uniform, 1};
-  }
   if (const auto* t = std::get_if<CheckerTexture>(&kind)) {
     const std::optional<Color> a = color(t->a);
     if (!a || a != color(t->b)) return std::nullopt;
@@ -65,7 +59,7 @@ std::optional<Folding::Value> Folding::texture(TextureId id) const {
         return Value{{source->alpha, source->alpha, source->alpha}, 1};
     }
   }
-  return std::nullopt;  // fractal: varies
+  return std::nullopt;  // images and fractals vary
 }
 
 std::optional<Color> Folding::color(const ColorInput& input) const {

@@ -11,8 +11,7 @@ namespace scenec::ir {
 
 // What reading an image has shown; without it an image counts as varying.
 struct ImageFact {
-  bool opaque = false;           // no texel has an alpha below 1
-  std::optional<Color> uniform;  // every texel has this colour, linear, as colours are read
+  bool opaque = false;  // no texel has an alpha below 1
 };
 // By asset; may be shorter than the table of assets.
 using ImageFacts = std::vector<ImageFact>;

@@ -120,11 +120,12 @@ std::optional<UsageError> find_operand_problem(const Options& options) {
   }
   const bool needs_one = !takes_none && !verb.operands.starts_with('[') && !options.list;
   const bool takes_many = verb.operands.ends_with("...");
-  const bool explains_effects =
-      options.verb == Verb::explain && !options.operands.empty() && options.operands[0] == "effects";
+  const bool explains_effects = options.verb == Verb::explain && !options.operands.empty() &&
+                                options.operands[0] == "effects";
   if (explains_effects && options.operands.size() != 2) {
-    return UsageError{options.operands.size() < 2 ? "`explain effects` needs the name of a scene file"
-                                                  : "`explain effects` takes one scene at a time"};
+    return UsageError{options.operands.size() < 2
+                          ? "`explain effects` needs the name of a scene file"
+                          : "`explain effects` takes one scene at a time"};
   }
   if (options.operands.size() > 1 && !takes_many && !explains_effects) {
     return UsageError{fmt::format("`{}` takes one {} at a time; `{}` is a second one", verb.name,

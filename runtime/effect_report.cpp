@@ -58,8 +58,8 @@ std::string paragraph(const ir::Scene& scene, ir::Effect effect, const ir::Effec
   std::string text = fmt::format("{:<4}{:<16}{}\n", state == State::simulated ? "on" : "off",
                                  ir::name_of(effect), finding.reason);
   if (state == State::switched_off)
-    text += fmt::format("{:20}but it is switched off in `render.effects`: the picture is biased\n",
-                        "");
+    text +=
+        fmt::format("{:20}but it is switched off in `render.effects`: the picture is biased\n", "");
   const std::string chain = chain_text(chain_of(scene, finding.witness, sources));
   if (!chain.empty()) text += fmt::format("{:20}{}\n", "", chain);
   return text;
@@ -75,9 +75,9 @@ void for_each_finding(const ir::EffectReport& report, F&& f) {
 
 std::string effects_text(const ir::Scene& scene, const ir::RenderSettings& settings,
                          const ir::EffectReport& report, const SourceMap& sources) {
-  std::string text = fmt::format("method `.{}`: {} of {} effects are simulated\n\n",
-                                 method_name(settings), report.simulated().size(),
-                                 ir::effect_count);
+  std::string text =
+      fmt::format("method `.{}`: {} of {} effects are simulated\n\n", method_name(settings),
+                  report.simulated().size(), ir::effect_count);
   for (const State wanted : {State::simulated, State::switched_off, State::absent}) {
     for_each_finding(report, [&](ir::Effect effect, const ir::EffectFinding& finding) {
       if (state_of(finding) == wanted) text += paragraph(scene, effect, finding, sources);
@@ -100,12 +100,9 @@ std::string effects_json(const ir::Scene& scene, const ir::RenderSettings& setti
                          const ir::EffectReport& report, const SourceMap& sources) {
   Json json{{"version", 1}, {"method", method_name(settings)}, {"effects", Json::array()}};
   for_each_finding(report, [&](ir::Effect effect, const ir::EffectFinding& finding) {
-    Json row{{"name", ir::name_of(effect)},
-             {"doc", ir::doc_of(effect)},
-             {"called_for", finding.called_for},
-             {"switched_off", finding.switched_off},
-             {"simulated", finding.simulated()},
-             {"reason", finding.reason},
+    Json row{{"name", ir::name_of(effect)},      {"doc", ir::doc_of(effect)},
+             {"called_for", finding.called_for}, {"switched_off", finding.switched_off},
+             {"simulated", finding.simulated()}, {"reason", finding.reason},
              {"witness", Json::array()}};
     for (const Step& step : chain_of(scene, finding.witness, sources)) {
       row["witness"].push_back({{"how", step.how},

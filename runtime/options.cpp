@@ -145,7 +145,7 @@ constexpr std::array option_table{
                 return std::nullopt;
               },
               ValueNeed::none},
-    OptionRow{"--stage", "NAME", "tree, ast, ir (default) or effects", VerbSet{Verb::dump},
+    OptionRow{"--stage", "NAME", "tree, ast, effects or ir (default)", VerbSet{Verb::dump},
               [](Options& o, Text v) {
                 constexpr std::array<Text, 4> names{"tree", "ast", "ir", "effects"};
                 return store_choice<DumpStage>(o.stage, v, names);
@@ -217,8 +217,7 @@ constexpr std::array option_table{
                 return std::nullopt;
               },
               ValueNeed::none},
-    OptionRow{"--json", "", "as JSON (the default of schema)",
-              VerbSet{Verb::schema, Verb::explain},
+    OptionRow{"--json", "", "as JSON (the default of schema)", VerbSet{Verb::schema, Verb::explain},
               [](Options& o, Text) -> Problem {
                 o.markdown = false;
                 o.json = true;

@@ -48,7 +48,7 @@ void CameraSampler::set_focal(const std::optional<Angle>& fov, const std::option
   }
 }
 
-CameraSampler::CameraSampler(const ir::Camera& camera, ir::ImageSize size)
+CameraSampler::CameraSampler(const ir::Camera& camera, ir::ImageSize size, Lens with_lens)
     : half_width_(static_cast<double>(size.width) / 2),
       half_height_(static_cast<double>(size.height) / 2) {
   if (const auto* pinhole = std::get_if<ir::Pinhole>(&camera.kind)) {
@@ -60,6 +60,7 @@ CameraSampler::CameraSampler(const ir::Camera& camera, ir::ImageSize size)
     const double focal_length = lens->focal ? lens->focal->value : focal_ratio_ * half_sensor;
     lens_radius_ =
         lens->aperture ? lens->aperture->value : focal_length / (2 * lens->f_stop.value_or(8));
+    if (with_lens == Lens::left_out) lens_radius_ = 0;
     focus_ = lens->focus.distance.value;
     if (lens->focus.at_aim && lens->aim) {
       focus_ = dot(Point3{lens->aim->x, lens->aim->y, lens->aim->z} - eye_, forward_);

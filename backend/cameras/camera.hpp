@@ -17,7 +17,8 @@ namespace scenec::backend {
 
 class CameraSampler {
  public:
-  CameraSampler(const ir::Camera& camera, ir::ImageSize size);
+  enum class Lens : std::uint8_t { simulated, left_out };
+  CameraSampler(const ir::Camera& camera, ir::ImageSize size, Lens lens = Lens::simulated);
 
   // Whether `lens` numbers are read.
   [[nodiscard]] bool has_lens() const { return lens_radius_ > 0; }

@@ -33,7 +33,12 @@ Ray spawn_segment(const Hit& hit, const Point3& target) {
 
 Ray spawn_segment(const Hit& hit, const Point3& target, const Vector3& target_error,
                   const UnitVector3& target_normal) {
-  return spawn_segment(hit, offset_origin(target, target_error, target_normal, hit.point - target));
+  const Vector3 way = hit.point - target;
+  // The target's kernel will see the segment from afar: its roundings are those of coordinates
+  // relative to the origin, as long as the way (numerics anchors, finding 1).
+  const double seen = length(way) * gamma(8);
+  const Vector3 error = target_error + Vector3{seen, seen, seen};
+  return spawn_segment(hit, offset_origin(target, error, target_normal, way));
 }
 
 }  // namespace scenec::backend

@@ -28,26 +28,38 @@ struct PathState {
   double eta_scale = 1;    // radiance scalings undone, for judging what the path can still bring
   double scatter_pdf = 0;  // of the last direction
   bool specular = true;    // the last direction could not have been found by aiming
+  bool scattered = false;  // some direction before could have been
   Point3 scatter_point;    // where it started
   std::uint32_t depth = 0;
   MediumStack media;
 };
 
+// The density of aiming at a light, from the one with its choice among all.
+double aimed_pdf(const Tracer& tracer, std::size_t light, double pdf) {
+  if (tracer.with(ir::Effect::many_lights) || !(pdf > 0)) return pdf;
+  return pdf / tracer.scene().lights.probability(light);
+}
+
 void add_escaped(const Tracer& tracer, PathState& path) {
   const LightTable& lights = tracer.scene().lights;
   const Vector3& d = path.ray.direction;
+  if (path.scattered && !tracer.with(ir::Effect::environment)) return;
   if (path.depth == 0 || lights.environments.empty()) {
     path.radiance += path.throughput * tracer.escaped(d, path.depth == 0);
     return;
   }
   for (std::size_t i = 0; i < lights.environments.size(); ++i) {
     const double weight =
-        path.specular ? 1 : power_heuristic(path.scatter_pdf, lights.pdf_of_environment(i, d));
+        path.specular
+            ? 1
+            : power_heuristic(path.scatter_pdf, aimed_pdf(tracer, lights.first_environment() + i,
+                                                          lights.pdf_of_environment(i, d)));
     path.radiance += path.throughput * lights.environments[i].radiance(d) * weight;
   }
 }
 
 void add_emission(const Tracer& tracer, PathState& path, const Hit& hit) {
+  if (path.scattered && !tracer.with(ir::Effect::area_lights)) return;
   const Rgb emitted = tracer.emitted(hit, -path.ray.direction);
   if (is_black(emitted)) return;
   double weight = 1;
@@ -56,14 +68,31 @@ void add_emission(const Tracer& tracer, PathState& path, const Hit& hit) {
     if (emitter != RenderItem::none) {
       const double pdf = tracer.scene().lights.pdf_of_emitter(emitter, path.scatter_point,
                                                               hit.point, hit.geometric_normal);
-      weight = power_heuristic(path.scatter_pdf, pdf);
+      weight =
+          power_heuristic(path.scatter_pdf,
+                          aimed_pdf(tracer, tracer.scene().lights.first_emitter() + emitter, pdf));
     }
   }
   path.radiance += path.throughput * emitted * weight;
 }
 
+// Without a choice among lights every one is asked.
+void add_direct_of_all(const Tracer& tracer, PathState& path, const Hit& hit, const Bsdf& bsdf,
+                       const Sampler& sampler) {
+  const LightTable& lights = tracer.scene().lights;
+  const auto weight = [](const LightSample& light, double bsdf_pdf) {
+    return light.delta ? 1.0 : power_heuristic(light.pdf, bsdf_pdf);
+  };
+  for (std::size_t light = 0; light < lights.size(); ++light) {
+    if (!(lights.probability(light) > 0)) continue;
+    path.radiance += path.throughput * tracer.direct(hit, bsdf, light, path.depth, sampler, weight);
+  }
+}
+
 void add_direct(const Tracer& tracer, PathState& path, const Hit& hit, const Bsdf& bsdf,
                 const Sampler& sampler) {
+  if (!tracer.with(ir::Effect::many_lights))
+    return add_direct_of_all(tracer, path, hit, bsdf, sampler);
   const double u = sampler.get_1d(dimension::bounce(path.depth) + dimension::light_choice);
   const LightTable::Choice choice = tracer.scene().lights.choose(u);
   if (!(choice.probability > 0)) return;
@@ -76,7 +105,7 @@ void add_direct(const Tracer& tracer, PathState& path, const Hit& hit, const Bsd
 }
 
 void absorb(const Tracer& tracer, PathState& path, double distance) {
-  if (path.media.empty()) return;
+  if (path.media.empty() || !tracer.with(ir::Effect::absorption)) return;
   const Rgb sigma = absorption_of(tracer.scene(), path.media.innermost());
   if (is_black(sigma)) return;
   path.throughput *=
@@ -93,21 +122,32 @@ bool survives(PathState& path, const Sampler& sampler) {
   return true;
 }
 
-bool scatter(PathState& path, const Hit& hit, const Bsdf& bsdf, ir::MaterialId material,
-             const Sampler& sampler) {
+// Whether the picture is simulated with what the sampled direction shows.
+bool follows(const Tracer& tracer, const PathState& path, const BsdfSample& s) {
+  if (s.transmitted && !tracer.with(ir::Effect::refraction)) return false;
+  if (!s.specular) return true;
+  if (!s.transmitted && !tracer.with(ir::Effect::reflection)) return false;
+  return !path.scattered || tracer.with(ir::Effect::caustics);
+}
+
+bool scatter(const Tracer& tracer, PathState& path, const Hit& hit, const Bsdf& bsdf,
+             ir::MaterialId material, const Sampler& sampler) {
   const std::uint32_t base = dimension::bounce(path.depth);
   const BsdfSample s = sample_bsdf(bsdf, sampler.get_1d(base + dimension::lobe),
                                    sampler.get_2d(base + dimension::direction));
-  if (is_black(s.weight)) return false;
+  if (is_black(s.weight) || !follows(tracer, path, s)) return false;
+  // Light that a matt surface hands to another one: only mirrors and glass may stand between.
+  if (path.scattered && !s.specular && !tracer.with(ir::Effect::interreflection)) return false;
   path.throughput *= s.weight;
   path.eta_scale *= s.eta_scale;
   path.scatter_pdf = s.pdf;
   path.specular = s.specular;
+  path.scattered = path.scattered || !s.specular;
   path.scatter_point = hit.point;
   path.ray = spawn_ray(hit, s.wi);
   if (s.transmitted) {
     if (bsdf.entering)
-      path.media.enter(material);
+      path.media.enter(material, tracer.with(ir::Effect::nested_media));
     else
       path.media.leave(material);
   }
@@ -144,10 +184,12 @@ TracedSample trace_path(const Tracer& tracer, const Ray& ray, const Sampler& sam
     if (path.depth >= max_depth) break;
     const ir::MaterialId material = scene.material_of(hit);
     const double mix = sampler.get_1d(dimension::bounce(path.depth) + dimension::material_mix);
-    const Bsdf bsdf = resolve_bsdf(scene, material, hit, -path.ray.direction, mix);
+    const Bsdf bsdf =
+        resolve_bsdf(scene, material, hit, -path.ray.direction, mix, tracer.effects());
     if (path.depth == 0) out.first = first_hit_of(tracer, hit, bsdf);
-    if (has_smooth_part(bsdf)) add_direct(tracer, path, hit, bsdf, sampler);
-    if (!scatter(path, hit, bsdf, material, sampler) || !survives(path, sampler)) break;
+    const bool lit = !path.scattered || tracer.with(ir::Effect::interreflection);
+    if (lit && has_smooth_part(bsdf)) add_direct(tracer, path, hit, bsdf, sampler);
+    if (!scatter(tracer, path, hit, bsdf, material, sampler) || !survives(path, sampler)) break;
   }
   out.radiance = path.radiance;
   return out;

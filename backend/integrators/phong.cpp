@@ -71,7 +71,8 @@ TracedSample trace_phong(const Tracer& tracer, const Ray& ray, const Sampler& sa
     hit = Hit{};
   }
   out.covered = true;
-  const PhongTerms terms = terms_of(scene, scene.material_of(hit), {hit.u, hit.v});
+  PhongTerms terms = terms_of(scene, scene.material_of(hit), texture_place(hit, tracer.effects()));
+  if (!tracer.with(ir::Effect::glossy)) terms.specular = {};
   const Vector3 n = hit.shading_normal.vector();
   const Vector3 to_viewer = -ray.direction;
   for (const DeltaLight& light : scene.lights.deltas) {

@@ -9,7 +9,8 @@ bool Tracer::keeps(const Hit& hit, RayKind kind, std::uint32_t depth,
   const RenderItem& item = scene_.items[hit.item];
   if (item.light != RenderItem::none)
     return kind == RayKind::scattered || scene_.lights.emitters[item.light].visible;
-  const double opacity = opacity_of(scene_, scene_.material_of(hit), {hit.u, hit.v});
+  if (!with(ir::Effect::alpha)) return true;
+  const double opacity = opacity_of(scene_, scene_.material_of(hit), texture_place(hit, effects_));
   if (opacity >= 1) return true;
   if (!(opacity > 0)) return false;
   // Each surface a ray passes takes a number of its own: told apart by what and where it is.
@@ -28,6 +29,7 @@ bool Tracer::intersect(const Ray& ray, RayKind kind, std::uint32_t depth, const 
 }
 
 bool Tracer::occluded(const Ray& ray, std::uint32_t depth, const Sampler& sampler) const {
+  if (!with(ir::Effect::shadows)) return false;
   ++counters_.rays;
   const auto keep = [&](const Hit& candidate) {
     return keeps(candidate, RayKind::shadow, depth, sampler);
@@ -42,7 +44,7 @@ Rgb Tracer::emitted(const Hit& hit, const Vector3& to_viewer) const {
     const Emitter& e = scene_.lights.emitters[item.light];
     return outside || e.two_sided ? e.radiance : Rgb{};
   }
-  return emission_of(scene_, scene_.material_of(hit), {hit.u, hit.v}, outside);
+  return emission_of(scene_, scene_.material_of(hit), texture_place(hit, effects_), outside);
 }
 
 Rgb Tracer::escaped(const Vector3& direction, bool camera) const {
@@ -74,7 +76,9 @@ Rgb Tracer::visible_radiance(const Hit& hit, const LightSample& light, std::uint
   const ir::MaterialId material = scene_.material_of(seen);
   // Where the light itself is see-through, its surface is there with that probability only; the
   // shadow ray has not been asked, as it ends before the surface.
-  return emitted(seen, -light.wi) * opacity_of(scene_, material, {seen.u, seen.v});
+  const double opacity =
+      with(ir::Effect::alpha) ? opacity_of(scene_, material, texture_place(seen, effects_)) : 1;
+  return emitted(seen, -light.wi) * opacity;
 }
 
 FirstHit first_hit_of(const Tracer& tracer, const Hit& hit, const Bsdf& bsdf) {

@@ -19,10 +19,11 @@ struct RayCounters {
 };
 
 // The bodies a path is in, innermost last. Outside all of them is air. Beyond eight the outermost
-// is forgotten.
+// is forgotten; where bodies do not lie in each other, the one that is entered is the only one.
 class MediumStack {
  public:
-  void enter(ir::MaterialId material) {
+  void enter(ir::MaterialId material, bool nested) {
+    if (!nested) count_ = 0;
     if (count_ == bodies_.size()) {
       for (std::size_t i = 1; i < bodies_.size(); ++i) bodies_[i - 1] = bodies_[i];
       --count_;
@@ -49,8 +50,13 @@ enum class RayKind : std::uint8_t { camera, scattered, shadow };
 
 class Tracer {
  public:
-  Tracer(const RenderScene& scene, const ir::RenderSettings& settings, RayCounters& counters)
-      : scene_(scene), settings_(settings), counters_(counters) {}
+  Tracer(const RenderScene& scene, const ir::RenderSettings& settings, const ir::EffectSet& effects,
+         RayCounters& counters)
+      : scene_(scene), settings_(settings), effects_(effects), counters_(counters) {}
+
+  // What the picture is simulated with.
+  [[nodiscard]] bool with(ir::Effect effect) const { return effects_.has(effect); }
+  [[nodiscard]] const ir::EffectSet& effects() const { return effects_; }
 
   [[nodiscard]] const RenderScene& scene() const { return scene_; }
   [[nodiscard]] const ir::RenderSettings& settings() const { return settings_; }
@@ -74,7 +80,8 @@ class Tracer {
     const std::uint32_t base = dimension::bounce(depth);
     const auto sample =
         scene_.lights.sample(light, hit.point, sampler.get_2d(base + dimension::light_point));
-    if (!sample || is_black(sample->radiance)) return {};
+    if (!sample || is_black(sample->radiance) || !gives_light(*sample)) return {};
+    if (!with(ir::Effect::refraction) && dot(sample->wi, bsdf.geometric) < 0) return {};
     const BsdfValue value = evaluate(bsdf, sample->wi);
     if (is_black(value.f_cos)) return {};
     const Rgb arriving = visible_radiance(hit, *sample, depth, sampler);
@@ -85,11 +92,16 @@ class Tracer {
  private:
   [[nodiscard]] bool keeps(const Hit& hit, RayKind kind, std::uint32_t depth,
                            const Sampler& sampler) const;
+  [[nodiscard]] bool gives_light(const LightSample& light) const {
+    if (light.emitter != nullptr) return with(ir::Effect::area_lights);
+    return light.delta || with(ir::Effect::environment);
+  }
   [[nodiscard]] Rgb visible_radiance(const Hit& hit, const LightSample& light, std::uint32_t depth,
                                      const Sampler& sampler) const;
 
   const RenderScene& scene_;
   const ir::RenderSettings& settings_;
+  ir::EffectSet effects_;
   RayCounters& counters_;
 };
 

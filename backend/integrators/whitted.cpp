@@ -59,14 +59,14 @@ class WhittedTracer {
     if (branch.depth >= max_depth_) return false;
     const ir::MaterialId material = scene_.material_of(hit);
     const double mix = sampler_.get_1d(dimension::bounce(branch.depth) + dimension::material_mix);
-    const Bsdf bsdf = resolve_bsdf(scene_, material, hit, to_viewer, mix);
+    const Bsdf bsdf = resolve_bsdf(scene_, material, hit, to_viewer, mix, tracer_.effects());
     if (branch.depth == 0 && !out_.first.hit) out_.first = first_hit_of(tracer_, hit, bsdf);
     if (has_smooth_part(bsdf)) out_.radiance += branch.throughput * direct(branch, hit, bsdf);
     return follow(branch, hit, bsdf, material);
   }
 
   void absorb(Branch& branch, double distance) const {
-    if (branch.media.empty()) return;
+    if (branch.media.empty() || !tracer_.with(ir::Effect::absorption)) return;
     const Rgb sigma = absorption_of(scene_, branch.media.innermost());
     branch.throughput *=
         Rgb(exp(-sigma.r * distance), exp(-sigma.g * distance), exp(-sigma.b * distance));
@@ -75,7 +75,7 @@ class WhittedTracer {
   [[nodiscard]] Rgb direct(const Branch& branch, const Hit& hit, const Bsdf& bsdf) const {
     const auto whole = [](const LightSample&, double) { return 1.0; };
     const LightTable& lights = scene_.lights;
-    const bool many = lights.size() > all_lights;
+    const bool many = lights.size() > all_lights && tracer_.with(ir::Effect::many_lights);
     Rgb sum;
     if (many) {
       const double u = sampler_.get_1d(dimension::bounce(branch.depth) + dimension::light_choice);
@@ -94,9 +94,20 @@ class WhittedTracer {
     return sum;
   }
 
+  // Those that the picture is simulated with.
+  [[nodiscard]] SpecularRays followed(const SpecularRays& all) const {
+    SpecularRays kept;
+    for (int i = 0; i < all.count; ++i) {
+      const SpecularRay& ray = all.rays[static_cast<std::size_t>(i)];
+      if (tracer_.with(ray.transmitted ? ir::Effect::refraction : ir::Effect::reflection))
+        kept.rays[static_cast<std::size_t>(kept.count++)] = ray;
+    }
+    return kept;
+  }
+
   // The next ray of the branch; the weaker of two waits.
   bool follow(Branch& branch, const Hit& hit, const Bsdf& bsdf, ir::MaterialId material) {
-    SpecularRays rays = specular_rays(bsdf);
+    SpecularRays rays = followed(specular_rays(bsdf));
     if (rays.count == 0) return false;
     if (rays.count == 2 &&
         max_component(rays.rays[0].weight) < max_component(rays.rays[1].weight)) {
@@ -135,7 +146,7 @@ class WhittedTracer {
     branch.ray = spawn_ray(hit, next.wi);
     if (next.transmitted) {
       if (bsdf.entering)
-        branch.media.enter(material);
+        branch.media.enter(material, tracer_.with(ir::Effect::nested_media));
       else
         branch.media.leave(material);
     }

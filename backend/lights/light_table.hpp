@@ -56,6 +56,9 @@ class LightTable {
   void finish(double scene_radius);
 
   [[nodiscard]] std::size_t size() const { return probability_.size(); }
+  // Of being chosen; 0: never.
+  [[nodiscard]] double probability(std::size_t light) const { return probability_[light]; }
+  [[nodiscard]] std::size_t first_emitter() const { return deltas.size(); }
   [[nodiscard]] std::size_t first_environment() const { return deltas.size() + emitters.size(); }
   [[nodiscard]] bool is_constant_environment(std::size_t light) const {
     return light >= first_environment() && environments[light - first_environment()].is_constant();

@@ -79,6 +79,14 @@ void set_roughness(Bsdf& b, double roughness, BsdfKind smooth, BsdfKind rough) {
   b.kind = b.alpha == 0 ? smooth : rough;
 }
 
+// A picture without blurred reflection shows what is left of the material.
+void leave_out_rough_lobes(Bsdf& b) {
+  b.kind = b.kind == BsdfKind::coat                                             ? BsdfKind::diffuse
+           : b.kind == BsdfKind::rough_glass || b.kind == BsdfKind::rough_metal ? BsdfKind::none
+                                                                                : b.kind;
+  if (b.kind == BsdfKind::phong) b.specular = {};
+}
+
 struct Filler {
   const RenderScene& scene;
   Sample2 uv;
@@ -139,13 +147,15 @@ struct Filler {
 }  // namespace
 
 Bsdf resolve_bsdf(const RenderScene& scene, ir::MaterialId material, const Hit& hit,
-                  const Vector3& to_viewer, double mix) {
-  const Sample2 uv{hit.u, hit.v};
+                  const Vector3& to_viewer, double mix, const ir::EffectSet& effects) {
+  const Sample2 uv = texture_place(hit, effects);
   const Part part = choose_part(scene, material, uv, mix);
   Bsdf b;
   b.albedo = scene.ggx_albedo ? &*scene.ggx_albedo : nullptr;
-  set_frame(b, scene, hit, to_viewer, part.normal_map);
+  set_frame(b, scene, hit, to_viewer,
+            effects.has(ir::Effect::normal_maps) ? part.normal_map : ir::TextureId());
   std::visit(Filler{scene, uv, b}, part.material->kind);
+  if (!effects.has(ir::Effect::glossy)) leave_out_rough_lobes(b);
   finish(b);
   return b;
 }

@@ -1,4 +1,5 @@
-// Golden texts: parse/ (the lossless tree), lower/ (the IR), course/ (course scenes as native
+// Golden texts: parse/ (the lossless tree), lower/ (the IR), effects/ (what the picture depends
+// on), course/ (course scenes as native
 // text), cli/ (command lines and what they print). `golden_test --update` writes `<input>.expected`
 // anew.
 #include <filesystem>
@@ -42,6 +43,7 @@ int main(int argument_count, char** arguments) {
   const fs::path root = scenec::test::source_directory() / "tests" / "golden";
   compare_folder(golden, root / "parse", {".sdl", ".txt"}, {"dump", "--stage", "tree"});
   compare_folder(golden, root / "lower", {".sdl"}, {"dump", "--stage", "ir"});
+  compare_folder(golden, root / "effects", {".sdl"}, {"dump", "--stage", "effects"});
   compare_folder(golden, root / "course", {".txt"}, {"convert"});
   compare_command_lines(golden, root / "cli");
   return golden.finish();

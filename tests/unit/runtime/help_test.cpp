@@ -26,7 +26,7 @@ const OptionRow& row_of(std::string_view name) {
 
 TEST(Help, ChoicesAreThoseThatAreAccepted) {
   EXPECT_THAT(choices_of(row_of("--method")), ElementsAre("path", "whitted", "phong"));
-  EXPECT_THAT(choices_of(row_of("--stage")), ElementsAre("tree", "ast", "ir"));
+  EXPECT_THAT(choices_of(row_of("--stage")), ElementsAre("tree", "ast", "ir", "effects"));
   EXPECT_THAT(choices_of(row_of("--size")), ElementsAre());
   EXPECT_THAT(choices_of(row_of("--half")), ElementsAre());
   for (const OptionRow& row : all_options()) {

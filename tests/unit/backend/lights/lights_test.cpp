@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "backend/accel/scene_accel.hpp"
 #include "backend/lights/light_table.hpp"
 #include "backend/math/rng.hpp"
 #include "base/elementary.hpp"
@@ -103,6 +104,31 @@ TEST(emitter, far_spheres_light_by_the_closed_form) {  // P03
     }
     const double expected = pi / (ratio * ratio);
     EXPECT_NEAR(irradiance, expected, 1e-9 * expected) << ratio;
+  }
+}
+
+TEST(emitter, no_light_stands_in_its_own_way_however_far) {  // P07
+  for (const double distance : {2.0, 1e2, 1e4, 1e6, 1e8}) {
+    Emitter e;
+    e.shape = EmitterShape::sphere;
+    e.radius = 0.2;
+    e.origin = {0, 3, 0};
+    measure(e);
+    SceneAccel world;
+    world.add(0, Sphere{e.origin, e.radius});
+    ThreadPool pool(1);
+    world.build(pool);
+    Hit floor;
+    floor.geometric_normal = normalized(Vector3{0, 1, 0});
+    int blocked = 0;
+    constexpr int n = 100;
+    for (int i = 0; i < n * n; ++i) {
+      floor.point = {distance * (1 + i / 3e4), 0, distance * 0.3};
+      const auto s = sample_emitter(e, floor.point, {(i % n + 0.5) / n, (i / n + 0.5) / n});
+      ASSERT_TRUE(s);
+      blocked += world.occluded(spawn_segment(floor, s->point, s->error, s->normal)) ? 1 : 0;
+    }
+    EXPECT_EQ(blocked, 0) << distance;
   }
 }
 
