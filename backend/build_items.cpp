@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "backend/build.hpp"
+#include "backend/geometry/revolve_mesh.hpp"
 
 namespace scenec::backend {
 namespace {
@@ -67,7 +68,10 @@ class ItemAdder {
     } else if (const auto* mesh = std::get_if<Id<ir::Mesh>>(&item.shape)) {
       accel.add_mesh(number, mesh_accel(mesh->value()), place, option);
     } else if (const auto* revolve = std::get_if<Id<ir::Revolve>>(&item.shape)) {
-      accel.add_revolve(number, revolve_accel(*revolve), place, option);
+      if (scene_.shape(*revolve).solver == ir::RevolveSolver::tessellated)
+        accel.add_mesh(number, tessellated_accel(*revolve), place, option);
+      else
+        accel.add_revolve(number, revolve_accel(*revolve), place, option);
     } else if (const auto* triangle = std::get_if<Id<ir::Triangle>>(&item.shape)) {
       const ir::Triangle& shape = scene_.shape(*triangle);
       if (shape.normals || shape.uvs)
@@ -94,6 +98,15 @@ class ItemAdder {
     out_.meshes[index] = slot->shared_mesh();
     return slot;
   }
+  std::shared_ptr<const MeshAccel> tessellated_accel(Id<ir::Revolve> id) {
+    auto& slot = tessellated_[id];
+    if (!slot) {
+      const ir::Revolve& shape = scene_.shape(id);
+      slot = std::make_shared<MeshAccel>(
+          tessellate(revolve_of(shape), static_cast<std::uint32_t>(shape.steps)), pool_);
+    }
+    return slot;
+  }
   std::shared_ptr<const Revolve> revolve_accel(Id<ir::Revolve> id) {
     auto& slot = revolves_[id];
     if (!slot) slot = std::make_shared<Revolve>(revolve_of(scene_.shape(id)));
@@ -110,6 +123,7 @@ class ItemAdder {
   std::vector<std::shared_ptr<const SceneAccel>> protos_;
   std::map<const void*, std::shared_ptr<const MeshAccel>> meshes_;
   std::map<Id<ir::Revolve>, std::shared_ptr<const Revolve>> revolves_;
+  std::map<Id<ir::Revolve>, std::shared_ptr<const MeshAccel>> tessellated_;
 
   [[nodiscard]] bool has_transparent_override() const {
     const auto any = [&](const std::vector<ir::Item>& items) {
@@ -194,7 +208,9 @@ Revolve revolve_of(const ir::Revolve& r) {
       break;
   }
   const Axis axis = r.axis == ir::Axis::x ? Axis::x : r.axis == ir::Axis::y ? Axis::y : Axis::z;
-  return Revolve(std::move(profile), axis);
+  return Revolve(
+      std::move(profile), axis,
+      r.solver == ir::RevolveSolver::newton ? RootFinder::newton : RootFinder::certified);
 }
 
 void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& pool) {

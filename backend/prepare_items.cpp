@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "backend/build.hpp"
 #include "backend/geometry/kernel.hpp"
+#include "backend/geometry/revolve_mesh.hpp"
 #include "backend/prepare.hpp"
 #include "backend/scene_facts.hpp"
 
@@ -44,6 +46,24 @@ void warn_emission(const ir::Scene& scene, const MaterialFacts& facts, const ir:
           .hint("use a quad, disk or sphere light for what shall light the scene"));
 }
 
+// As many triangles as one tessellated surface may be made of: about 2 GiB with its tree.
+constexpr std::uint64_t max_tessellated_faces = 16'777'216;
+
+void check_tessellation(const ir::Scene& scene, const ir::Item& item, DiagnosticSink& sink) {
+  const auto* id = std::get_if<Id<ir::Revolve>>(&item.shape);
+  if (id == nullptr) return;
+  const ir::Revolve& revolve = scene.shape(*id);
+  if (revolve.solver != ir::RevolveSolver::tessellated) return;
+  const std::uint64_t faces =
+      tessellated_face_count(revolve_of(revolve), static_cast<std::uint32_t>(revolve.steps));
+  if (faces <= max_tessellated_faces) return;
+  sink.report(Diagnostic(DiagnosticKind::out_of_range, span_of(scene, item),
+                         "`steps` is " + std::to_string(revolve.steps) + ", which makes " +
+                             std::to_string(faces) + " triangles of this profile; at most " +
+                             std::to_string(max_tessellated_faces) + " are made")
+                  .hint("`solver = .certified` meets the surface itself"));
+}
+
 }  // namespace
 
 void check_items(const ir::Scene& scene, DiagnosticSink& sink) {
@@ -51,6 +71,7 @@ void check_items(const ir::Scene& scene, DiagnosticSink& sink) {
   const MaterialFacts facts(scene);
   const auto check = [&](const ir::Item& item) {
     warn_emission(scene, facts, item, sink);
+    check_tessellation(scene, item, sink);
     const auto* id = std::get_if<Id<ir::Instance>>(&item.shape);
     if (id == nullptr) return;
     const std::uint32_t depth = depths[scene.shape(*id).of.value()] + 1;
@@ -61,7 +82,10 @@ void check_items(const ir::Scene& scene, DiagnosticSink& sink) {
   };
   for (const ir::Item& item : scene.items) check(item);
   for (const ir::Proto& proto : scene.protos) {
-    for (const ir::Item& item : proto.items) warn_emission(scene, facts, item, sink);
+    for (const ir::Item& item : proto.items) {
+      warn_emission(scene, facts, item, sink);
+      check_tessellation(scene, item, sink);
+    }
   }
 }
 

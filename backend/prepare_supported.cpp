@@ -27,20 +27,6 @@ void check_layers(const ir::Scene& scene, DiagnosticSink& sink) {
   }
 }
 
-void check_solvers(const ir::Scene& scene, const std::vector<ir::Item>& items,
-                   DiagnosticSink& sink) {
-  for (const ir::Item& item : items) {
-    const auto* id = std::get_if<Id<ir::Revolve>>(&item.shape);
-    if (id == nullptr) continue;
-    const ir::RevolveSolver solver = scene.shape(*id).solver;
-    if (solver == ir::RevolveSolver::certified) continue;
-    refuse(sink, span_of(scene, item.origin),
-           fmt::format("`solver = .{}`",
-                       ir::EnumNames<ir::RevolveSolver>::names[static_cast<std::size_t>(solver)]),
-           "`.certified`, the default, finds every hit");
-  }
-}
-
 void check_textures(const ir::Scene& scene, DiagnosticSink& sink) {
   for (const ir::TextureNode& node : scene.textures) {
     const auto* image = std::get_if<ir::ImageTexture>(&node.kind);
@@ -53,8 +39,6 @@ void check_textures(const ir::Scene& scene, DiagnosticSink& sink) {
 
 void check_supported(const ir::Scene& scene, DiagnosticSink& sink) {
   check_layers(scene, sink);
-  check_solvers(scene, scene.items, sink);
-  for (const ir::Proto& proto : scene.protos) check_solvers(scene, proto.items, sink);
   check_textures(scene, sink);
 }
 

@@ -89,7 +89,8 @@ Profile bspline_profile(std::span<const ProfilePoint> points, SplineEnds ends) {
   return p;
 }
 
-Revolve::Revolve(Profile profile, Axis axis) : profile_(std::move(profile)), axis_(axis) {
+Revolve::Revolve(Profile profile, Axis axis, RootFinder finder)
+    : profile_(std::move(profile)), axis_(axis), finder_(finder) {
   pieces_.reserve(profile_.size());
   for (std::size_t i = 0; i < profile_.size(); ++i) {
     const std::span<const ProfilePoint> control = profile_.segment(i);

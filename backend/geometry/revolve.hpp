@@ -9,11 +9,10 @@
 //             is found by Newton in a bracket and polished by two steps in (t, s).
 // Error:      roots satisfy both equations to gamma(64) of the profile's size.
 // Degenerate: tangent rays: hit or miss by rounding; a ray lying in the surface for a whole
-// interval
-//             reports a point near the interval's nearest end; at most 4096 pieces a segment;
-//             negative radii count as their absolute value; a pole's normal is that of its limit
-//             tangent.
-// Proof:      tests/unit/backend/geometry/revolve_test.cpp (R01-R06, R08, R09, R16, R17).
+//             interval reports a point near the interval's nearest end; at most 4096 pieces a
+//             segment; negative radii count as their absolute value; a pole's normal is that of its
+//             limit tangent.
+// Proof:      tests/numerics/revolve_cases.cpp (R01 - R19).
 #pragma once
 
 #include <cstdint>
@@ -57,12 +56,17 @@ enum class SplineEnds : std::uint8_t { clamped, uniform };
 // At least 4 points; cubic. Clamped: passes through the ends; uniform: knots of step 1 on [t3, tn].
 [[nodiscard]] Profile bspline_profile(std::span<const ProfilePoint> points, SplineEnds ends);
 
+// How rays meet the surface. `newton` is the method of the course's ray casters, kept to be
+// compared with (revolve_newton.cpp); it misses roots.
+enum class RootFinder : std::uint8_t { certified, newton };
+
 class Revolve {
  public:
   Revolve() = default;
-  explicit Revolve(Profile profile, Axis axis = Axis::y);
+  explicit Revolve(Profile profile, Axis axis = Axis::y, RootFinder finder = RootFinder::certified);
 
   [[nodiscard]] const Profile& profile() const { return profile_; }
+  [[nodiscard]] RootFinder finder() const { return finder_; }
   [[nodiscard]] Axis axis() const { return axis_; }
 
   // Bounds of one segment: |r| and h of its control points.
@@ -78,11 +82,14 @@ class Revolve {
   Profile profile_;
   std::vector<Piece> pieces_;
   Axis axis_ = Axis::y;
+  RootFinder finder_ = RootFinder::certified;
 };
 
 // `part` is the segment, `a` the curve parameter in [0, 1] within it.
 [[nodiscard]] bool intersect(const Revolve& revolve, const Ray& ray, ShapeHit& out);
-// Every hit of the closed interval, sorted by t.
+// As above by the damped Newton iteration, whatever the surface's own finder: see its file.
+[[nodiscard]] bool intersect_by_newton(const Revolve& revolve, const Ray& ray, ShapeHit& out);
+// Every hit of the closed interval, sorted by t; always certified.
 void intersect_all(const Revolve& revolve, const Ray& ray, std::vector<ShapeHit>& out);
 [[nodiscard]] Bounds3 bounds(const Revolve& revolve);
 // u the angle about the axis / 2 pi (as on a sphere), v along the whole profile in [0, 1].

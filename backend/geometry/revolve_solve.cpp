@@ -423,6 +423,7 @@ class Solver {
 }  // namespace
 
 bool intersect(const Revolve& revolve, const Ray& ray, ShapeHit& out) {
+  if (revolve.finder() == RootFinder::newton) return intersect_by_newton(revolve, ray, out);
   return Solver(revolve, ray, nullptr).run(out);
 }
 

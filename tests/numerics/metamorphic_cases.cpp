@@ -263,6 +263,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Metamorphosis{"revolve", Kind::mirrored, mirrored_revolve},
                     Metamorphosis{"revolve", Kind::permuted, swapped_revolve}));
 
+TEST(R17, RevolveScalesByPowersOfTwo) {
+  const Tally tally = compare<Revolve>(Grid::any, {{.scale = 0x1p-20}, {.scale = 0x1p20}}, 17);
+  EXPECT_EQ(tally.different, 0U);
+  record({"R17", "2^±20", tally.rays,
+          fmt::format("{} different of {} hits", tally.different, tally.hits), ""});
+}
+
 struct Interval {
   const char* shape;
   Tally (*run)();

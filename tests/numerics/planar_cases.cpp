@@ -100,7 +100,7 @@ TEST(G12, TinyTrianglesAreHit) {
   std::uint64_t naive_total = 0;
   for (int k = 0; k <= 18; ++k) {
     Draw draw(12);
-    const double leg = std::pow(10.0, -k);
+    const double leg = pow(10.0, -k);
     const Triangle t{{0, 0, 0}, {leg, 0, 0}, {0, leg, 0}};
     std::uint64_t missed = 0;
     std::uint64_t naive_missed = 0;

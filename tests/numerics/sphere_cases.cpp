@@ -129,7 +129,7 @@ TEST(G01, ErrorGrowsGentlyWithDistance) {
   Series naive{"far-sphere", "textbook, double", {}, {}};
   Series single{"far-sphere", "textbook, float", {}, {}};
   for (int k = 1; k <= 8; ++k) {
-    const double distance = std::pow(10.0, k);
+    const double distance = pow(10.0, k);
     const FarResult r = measure_far({distance, 1});
     for (Series* s : {&ours, &naive, &single}) s->x.push_back(distance);
     ours.y.push_back(r.t_error);
