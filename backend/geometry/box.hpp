@@ -5,7 +5,8 @@
 // Error:      t within 2 u of the slab distance, itself exact up to the rounding of face - origin.
 // Degenerate: direction component 0: the slab holds the origin (faces included) or the ray misses;
 //             edges and corners are hits.
-// Proof:      tests/unit/backend/geometry/solid_test.cpp.
+// Proof:      tests/numerics/accel_cases.cpp (G19, G20), derivative_cases.cpp (G27 - G29),
+//             tests/unit/backend/geometry/solid_test.cpp.
 #pragma once
 
 #include "backend/geometry/kernel.hpp"

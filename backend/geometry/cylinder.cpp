@@ -104,7 +104,9 @@ Surface surface(const Cylinder& cylinder, const Ray& ray, const ShapeHit& hit) {
     s.dp_du = 2 * pi * f.world_of(Vector3{-p.y, p.x, 0});
     s.dp_dv = cylinder.height * f.z.vector();
   } else {
+    // Counter-clockwise about the cap's own normal, as on a disk.
     const double side = hit.part == 1 ? -1 : 1;
+    s.u = turn_fraction(side * p.y, p.x);
     p.z = hit.part == 1 ? 0 : cylinder.height;
     s.geometric_normal = as_normal(side * f.z.vector());
     s.v = 1 - std::fmin(1, rho / cylinder.radius);

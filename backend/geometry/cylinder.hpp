@@ -7,7 +7,8 @@
 // Error:      side as for spheres, caps as for planes.
 // Degenerate: ray along the axis: caps only; ray lying in the side: the caps if there are any, else
 //             miss; tangent: one hit.
-// Proof:      tests/unit/backend/geometry/solid_test.cpp.
+// Proof:      tests/numerics/metamorphic_cases.cpp (G02, G09), derivative_cases.cpp (G27 - G29),
+//             tests/unit/backend/geometry/solid_test.cpp.
 #pragma once
 
 #include "backend/geometry/kernel.hpp"

@@ -4,7 +4,8 @@
 // Method:     t from the plane relative to the centre; inside by the squared distance from it.
 // Error:      rim within 8 u of the distance of the origin; t as for planes.
 // Degenerate: ray in the plane: miss; a hit exactly on the rim counts.
-// Proof:      tests/unit/backend/geometry/planar_test.cpp.
+// Proof:      tests/numerics/metamorphic_cases.cpp (G02, G09), derivative_cases.cpp (G27 - G29),
+//             tests/unit/backend/geometry/planar_test.cpp.
 #pragma once
 
 #include "backend/geometry/kernel.hpp"

@@ -6,7 +6,7 @@
 // Error:      as triangle.hpp.
 // Degenerate: zero, opposite or non-finite interpolated normals give way to the geometric normal;
 //             texture coordinates without area leave dp_du to the edges.
-// Proof:      tests/unit/backend/geometry/triangle_test.cpp.
+// Proof:      tests/numerics/derivative_cases.cpp (G29), tests/unit/backend/geometry/triangle_test.cpp.
 #pragma once
 
 #include <array>

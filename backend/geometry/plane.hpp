@@ -4,7 +4,7 @@
 // Method:     t = (offset - n.o) / (n.d), then the point is moved onto the plane along n.
 // Error:      t within 8 u relative to (|offset| + |n|.|o|) / |n.o - offset| .
 // Degenerate: n.d = 0 or t not finite: miss, also for a ray within the plane.
-// Proof:      tests/unit/backend/geometry/planar_test.cpp (G10, G11).
+// Proof:      tests/numerics/planar_cases.cpp (G10, G11), derivative_cases.cpp (G27 - G29).
 #pragma once
 
 #include "backend/geometry/kernel.hpp"

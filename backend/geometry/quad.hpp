@@ -6,7 +6,8 @@
 // Error:      inside or outside as for triangles: quads with bit-equal corners share edges without
 //             a gap; t as for planes.
 // Degenerate: zero area, ray in the plane: miss.
-// Proof:      tests/unit/backend/geometry/planar_test.cpp.
+// Proof:      tests/numerics/metamorphic_cases.cpp (G02, G09), derivative_cases.cpp (G27 - G29),
+//             tests/unit/backend/geometry/planar_test.cpp.
 #pragma once
 
 #include "backend/geometry/kernel.hpp"

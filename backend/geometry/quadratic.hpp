@@ -4,7 +4,7 @@
 // Method:     see sphere.hpp; shared by spheres, cylinders and whatever else is round.
 // Error:      see sphere.hpp.
 // Degenerate: no root or NaN: false.
-// Proof:      tests/unit/backend/geometry/{sphere,solid}_test.cpp.
+// Proof:      tests/numerics/sphere_cases.cpp, tests/unit/backend/geometry/solid_test.cpp.
 #pragma once
 
 #include <cmath>

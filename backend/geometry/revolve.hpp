@@ -8,7 +8,8 @@
 //             to the axis, no division by the slope along the axis) or t from the height. The root
 //             is found by Newton in a bracket and polished by two steps in (t, s).
 // Error:      roots satisfy both equations to gamma(64) of the profile's size.
-// Degenerate: tangent rays: hit or miss by rounding; a ray lying in the surface for a whole
+// Degenerate: tangent rays: a ray may hit that passes within 4 gamma(16) of the profile's and the
+//             origin's size; a ray lying in the surface for a whole
 //             interval reports a point near the interval's nearest end; at most 4096 pieces a
 //             segment; negative radii count as their absolute value; a pole's normal is that of its
 //             limit tangent.

@@ -7,7 +7,8 @@
 // Error:      t within 8 u D / sqrt(r^2 - h^2) relative, D the distance of the origin and h that of
 //             the line from the centre; hit or miss exact unless |h - r| <= 4 u D.
 // Degenerate: tangent (h = r): one hit, closed; radius 0 or NaN: no hit; |d| of any size.
-// Proof:      tests/unit/backend/geometry/sphere_test.cpp (G01-G06, G25).
+// Proof:      tests/numerics/sphere_cases.cpp (G01 - G08, G25), metamorphic_cases.cpp (G02, G09),
+//             derivative_cases.cpp (G27 - G29).
 #pragma once
 
 #include "backend/geometry/kernel.hpp"

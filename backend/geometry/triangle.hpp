@@ -2,16 +2,14 @@
 //
 // Domain:     finite vertices; finite ray.
 // Method:     Woop, Benthin, Wald 2013: vertices relative to the ray origin, sheared so that the
-// ray
-//             runs along its largest axis; edge functions a*b - c*d, exactly antisymmetric in an
+//             ray runs along its largest axis; edge functions a*b - c*d, exactly antisymmetric in an
 //             edge's ends because nothing is fused.
 // Error:      inside or outside consistent for both triangles at a shared edge (no leak, ever);
 //             t within gamma(16) |A||B||C| / (2 area) of distance, A, B, C the vertices seen from
 //             the origin.
 // Degenerate: zero determinant (zero area, ray in the plane), non-finite t: miss. Zero edge
-// function
-//             counts as inside, so edges and vertices are hits of all that share them.
-// Proof:      tests/unit/backend/geometry/triangle_test.cpp (G11-G14).
+//             function counts as inside, so edges and vertices are hits of all that share them.
+// Proof:      tests/numerics/watertight_cases.cpp (G14 - G16), planar_cases.cpp (G11 - G18).
 #pragma once
 
 #include <cmath>
