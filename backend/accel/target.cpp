@@ -1,8 +1,5 @@
 #include "backend/accel/target.hpp"
 
-#include <hwy/targets.h>
-#include <algorithm>
-
 namespace scenec::backend {
 
 std::string_view name_of(Target target) {
@@ -19,12 +16,22 @@ std::string_view name_of(Target target) {
   return "baseline";
 }
 
+// What Highway's code for a target may use. The library of Highway knows it too, but measures a
+// timer for several milliseconds before `main`, whoever links it; its headers are all we need.
 std::vector<Target> available_targets() {
-  const auto supported = hwy::SupportedTargets();
   std::vector<Target> targets{Target::baseline};
-  if ((supported & HWY_SSE4) != 0) targets.push_back(Target::sse4);
-  if ((supported & HWY_AVX2) != 0) targets.push_back(Target::avx2);
-  if ((supported & HWY_AVX3) != 0) targets.push_back(Target::avx512);
+  const bool sse4 = __builtin_cpu_supports("ssse3") && __builtin_cpu_supports("sse4.1") &&
+                    __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("pclmul") &&
+                    __builtin_cpu_supports("aes");
+  const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+                    __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("f16c");
+  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
+                      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+  if (sse4) targets.push_back(Target::sse4);
+  if (avx2) targets.push_back(Target::avx2);
+  if (avx512) targets.push_back(Target::avx512);
   return targets;
 }
 
