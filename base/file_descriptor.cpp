@@ -80,6 +80,7 @@ Result<FileContent, FileError> read_regular(int file, std::uint64_t size_limit) 
     const auto stated_size = static_cast<std::uint64_t>(before.st_size);
     if (stated_size > size_limit) return Failure{FileError::too_large};
     auto content = read_all(file, stated_size, size_limit);
+    if (content) content.value().identity = {before.st_dev, before.st_ino};
     struct stat after{};
     if (::fstat(file, &after) != 0) return Failure{file_error_of(errno)};
     // Somebody wrote while we read: a second look mends the common case of an editor that saves.

@@ -26,10 +26,19 @@ enum class FileError : std::uint8_t {
 };
 [[nodiscard]] std::string_view text_of(FileError error);  // "no such file", "is a directory", ...
 
+// Which file it is, by whatever name it was opened. Not set where files have no such thing.
+struct FileIdentity {
+  std::uint64_t device = 0;
+  std::uint64_t inode = 0;
+  [[nodiscard]] bool valid() const { return inode != 0; }
+  friend bool operator==(const FileIdentity&, const FileIdentity&) = default;
+};
+
 // The bytes of one file at the time it was read; `owner` keeps them alive.
 struct FileContent {
   std::string_view bytes;
   std::shared_ptr<const void> owner;
+  FileIdentity identity = {};
 };
 
 class FileSystem {

@@ -46,8 +46,15 @@ Hasher::~Hasher() = default;
 Hasher::Hasher(Hasher&&) noexcept = default;
 Hasher& Hasher::operator=(Hasher&&) noexcept = default;
 
+void Hasher::flush() {
+  const XXH_errorcode code = XXH3_128bits_update(&state_->xxh, gather_.data(), gathered_);
+  SCENEC_ASSERT(code == XXH_OK);
+  gathered_ = 0;
+}
+
 void Hasher::raw(const void* data, std::size_t size) {
   if (size == 0) return;
+  flush();
   const XXH_errorcode code = XXH3_128bits_update(&state_->xxh, data, size);
   SCENEC_ASSERT(code == XXH_OK);
 }
@@ -57,18 +64,16 @@ void Hasher::add(std::string_view text) {
   raw(text.data(), text.size());
 }
 
-void Hasher::add(double value) {
-  const double positive_zero = value == 0 ? 0.0 : value;
-  raw(&positive_zero, sizeof positive_zero);
-}
-
 void Hasher::add(Hash128 value) {
   add(value.low);
   add(value.high);
 }
 
 Hash128 Hasher::result() const {
-  return from_xxh(XXH3_128bits_digest(&state_->xxh));
+  XXH3_state_t rest = state_->xxh;
+  const XXH_errorcode code = XXH3_128bits_update(&rest, gather_.data(), gathered_);
+  SCENEC_ASSERT(code == XXH_OK);
+  return from_xxh(XXH3_128bits_digest(&rest));
 }
 
 }  // namespace scenec

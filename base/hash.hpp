@@ -2,10 +2,12 @@
 // same on every machine (integers and floats are fed little-endian).
 #pragma once
 
+#include <array>
 #include <compare>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,19 +37,30 @@ class Hasher {
 
   void raw(const void* data, std::size_t size);
   void add(std::string_view text);
-  void add(double value);
+  void add(double value) { add_word(value == 0 ? 0.0 : value); }
   void add(Hash128 value);
   template <class T>
     requires std::integral<T> || std::is_enum_v<T>
   void add(T value) {
-    const auto wide = static_cast<std::uint64_t>(value);
-    raw(&wide, sizeof wide);
+    add_word(static_cast<std::uint64_t>(value));
   }
   [[nodiscard]] Hash128 result() const;
 
  private:
+  // Words are gathered before they are hashed: most of what is fed is eight bytes long.
+  template <class T>
+  void add_word(T value) {
+    static_assert(sizeof value == 8);
+    if (gathered_ == gather_.size()) flush();
+    std::memcpy(gather_.data() + gathered_, &value, sizeof value);
+    gathered_ += sizeof value;
+  }
+  void flush();
+
   struct State;
   std::unique_ptr<State> state_;
+  std::array<unsigned char, 512> gather_;
+  std::size_t gathered_ = 0;
 };
 
 }  // namespace scenec

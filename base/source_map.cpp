@@ -129,6 +129,11 @@ FileId SourceMap::add_derived(FileId parent, std::string text, std::vector<Deriv
   return id;
 }
 
+void SourceMap::truncate(std::size_t size) {
+  SCENEC_ASSERT(size <= files_.size());
+  files_.resize(size);
+}
+
 std::string_view SourceMap::path(FileId file) const {
   SCENEC_ASSERT(file.value() < files_.size());
   return files_[file.value()]->path;

@@ -3,6 +3,7 @@
 // each of its ranges came from, so every span can be resolved to what the author wrote.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -39,6 +40,10 @@ class SourceMap {
   FileId add(std::string path, std::string_view text, std::shared_ptr<const void> owner);
   FileId add(std::string path, std::string text);
   FileId add_derived(FileId parent, std::string text, std::vector<DerivedRange> ranges);
+
+  [[nodiscard]] std::size_t size() const { return files_.size(); }
+  // Forgets the files added last; spans into them must be gone.
+  void truncate(std::size_t size);
 
   [[nodiscard]] std::string_view path(FileId file) const;
   [[nodiscard]] std::string_view text(FileId file) const;

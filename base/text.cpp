@@ -49,7 +49,36 @@ std::int64_t leading_exponent(std::string_view number) {
 
 }  // namespace
 
+namespace {
+
+// Plain decimals of few digits: the digits as an integer and the power of ten are both exact
+// doubles, so their quotient is correctly rounded (Clinger 1990). nullopt: any other text.
+std::optional<double> short_decimal(std::string_view text) {
+  constexpr std::size_t most_digits = 15;  // 10^15 < 2^53
+  static constexpr std::array<double, most_digits + 1> powers_of_ten = {
+      1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  if (text.size() > most_digits + 1) return std::nullopt;
+  std::uint64_t digits = 0;
+  std::size_t point = text.size();
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const unsigned digit = static_cast<unsigned char>(text[i]) - unsigned{'0'};
+    if (digit <= 9) {
+      digits = 10 * digits + digit;
+    } else if (text[i] == '.' && point == text.size() && i > 0 && i + 1 < text.size()) {
+      point = i;
+    } else {
+      return std::nullopt;
+    }
+  }
+  const std::size_t decimals = point == text.size() ? 0 : text.size() - point - 1;
+  if (text.empty() || text.size() - (decimals == 0 ? 0 : 1) > most_digits) return std::nullopt;
+  return static_cast<double>(digits) / powers_of_ten[decimals];
+}
+
+}  // namespace
+
 std::optional<double> parse_double(std::string_view text) {
+  if (const auto value = short_decimal(text)) return value;
   const char* const end = text.data() + text.size();
   double value = 0;
   const auto [rest, error] = std::from_chars(text.data(), end, value);

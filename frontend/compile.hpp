@@ -2,6 +2,7 @@
 // the FileSystem given (which may record), every mistake goes to the sink; nothing throws.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
+#include "base/parallel.hpp"
 #include "base/source_map.hpp"
 #include "grammar/parse.hpp"
 #include "ir/scene.hpp"
@@ -34,6 +36,15 @@ struct Frame {
   std::int64_t per_second = 24;
 };
 
+class FrontendCache;
+
+// How much text a scene may bring along; each is set by the option named behind it.
+struct SourceLimits {
+  std::uint64_t total_bytes = std::uint64_t{1} << 30;  // --max-source
+  std::uint64_t include_depth = 64;                    // --max-include-depth
+  std::uint64_t include_files = 4096;                  // --max-includes
+};
+
 struct CompileOptions {
   std::optional<grammar::Dialect> dialect;  // none: by grammar::dialect_of
   std::vector<ParamSetting> params;         // of two with one name the later one counts
@@ -42,14 +53,24 @@ struct CompileOptions {
   bool library = false;                     // accept a file of declarations alone
   bool camera_chosen = false;               // the caller picks one of several cameras
   std::uint64_t max_items = 2'000'000;
+  SourceLimits source;
+  FrontendCache* cache = nullptr;  // what earlier compilations have read
+  ThreadPool* pool = nullptr;      // parses large files; none: the calling thread does
+  // A scene of this many bytes is read in parts of the size below, each forgotten when it has been
+  // lowered. The scene and what is reported are the same either way.
+  std::size_t read_in_parts = std::size_t{2} << 20;
+  std::size_t part_bytes = std::size_t{64} << 10;  // whose tree fits into a core's cache
 };
 
-// A file with its text in the source map and its tree. For a course file `native` is the
+// A file with its text in the source map and its tree. A large one may have been left without a
+// tree: `compile` then reads it in parts. For a course file `native` is the
 // translation: a derived file whose spans resolve to the course text.
 struct LoadedFile {
   grammar::Dialect dialect = grammar::Dialect::sdl;
   FileId file;
-  grammar::SyntaxTree tree;                   // of the text as written
+  grammar::SyntaxTree tree;  // of the text as written
+  bool unparsed = false;     // `tree` is empty
+  FileIdentity identity;
   std::optional<grammar::SyntaxTree> native;  // course files only
   [[nodiscard]] const grammar::SyntaxTree& native_tree() const { return native ? *native : tree; }
 };
@@ -57,9 +78,11 @@ struct LoadedFile {
 // `output_directory` decides how paths in a translated course file are written (relative to it):
 // `convert` passes the directory it writes to, compilation the scene's own directory.
 // nullopt: the file could not be read (reported).
+enum class LoadTree : std::uint8_t { always, unless_large };
 [[nodiscard]] std::optional<LoadedFile> load(
     const std::string& path, const CompileOptions& options, FileSystem& files, SourceMap& sources,
-    DiagnosticSink& sink, const std::optional<std::string>& output_directory = std::nullopt);
+    DiagnosticSink& sink, const std::optional<std::string>& output_directory = std::nullopt,
+    LoadTree load_tree = LoadTree::always);
 
 // nullopt when there was an error (reported). A scene with lints is a scene.
 [[nodiscard]] std::optional<ir::Scene> compile(const std::string& path,

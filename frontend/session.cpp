@@ -55,7 +55,7 @@ Session::Expanding::Expanding(Session& owner, std::string_view name, Span span)
     : session(owner), before(owner.expansion_origin_) {
   if (!session.checking_only()) {
     session.expansion_origin_ =
-        session.builder.add_origin({span, before, ir::OriginKind::expanded_from});
+        session.shared_origin({span, before, ir::OriginKind::expanded_from});
   }
   session.expansions_.push_back({name, span});
 }
@@ -68,7 +68,16 @@ Session::Expanding::~Expanding() {
 ir::OriginId Session::add_origin(Span span) {
   const auto kind =
       expansion_origin_.valid() ? ir::OriginKind::expanded_from : ir::OriginKind::written;
-  return builder.add_origin({span, expansion_origin_, kind});
+  return shared_origin({span, expansion_origin_, kind});
+}
+
+ir::OriginId Session::shared_origin(const ir::Origin& origin) {
+  RecentOrigin& recent = recent_origins_[(origin.span.begin ^ origin.parent.value()) & 63u];
+  const ir::Origin& other = recent.origin;
+  const bool same = recent.id.valid() && other.span == origin.span &&
+                    other.parent == origin.parent && other.kind == origin.kind;
+  if (!same) recent = {origin, builder.add_origin(origin)};
+  return recent.id;
 }
 
 bool Session::exhausted(Span where) {

@@ -2,6 +2,7 @@
 // budget. One per call of `compile`; never global.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -115,6 +116,7 @@ class Session {
 
  private:
   bool exhausted(Span where);
+  [[nodiscard]] ir::OriginId shared_origin(const ir::Origin& origin);
 
   struct Expansion {
     std::string_view name;
@@ -125,6 +127,12 @@ class Session {
   std::vector<DiagnosticKind> allowed_;
   std::vector<Expansion> expansions_;
   ir::OriginId expansion_origin_;
+  // Origins made lately: the rounds of a loop have theirs in common.
+  struct RecentOrigin {
+    ir::Origin origin;
+    ir::OriginId id;
+  };
+  std::array<RecentOrigin, 64> recent_origins_{};
   std::uint64_t steps_ = 0;
   std::uint64_t items_ = 0;
   bool exhaustion_reported_ = false;

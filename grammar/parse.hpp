@@ -28,6 +28,17 @@ struct ParseLimits {
 [[nodiscard]] SyntaxTree parse_course(FileId file, std::string_view text, DiagnosticSink& sink,
                                       const ParseLimits& limits = {});
 
+// [begin, end) of a text that was cut between top-level items (split.hpp).
+struct TextPart {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+// One part as a tree of its own, with the places of the whole text. When no part of a text reports
+// anything, their items are, one after the other, those of the whole; else only the whole text can
+// tell what is wrong with it.
+[[nodiscard]] SyntaxTree parse_sdl_part(FileId file, std::string_view text, TextPart part,
+                                        DiagnosticSink& sink, const ParseLimits& limits = {});
+
 // A `.sdl` extension or a first statement `sdl N;` says native; all else is course.
 [[nodiscard]] Dialect dialect_of(std::string_view path, std::string_view text);
 

@@ -13,6 +13,20 @@ constexpr std::array<std::string_view, 17> item_keywords = {
     "light",  "macro",  "material", "param", "proto", "render", "sdl",     "else"};
 constexpr std::array<std::string_view, 4> other_reserved = {"as", "in", "true", "false"};
 
+// Every name of a text is asked for, so few words are looked at: those with its first letter.
+constexpr auto reserved_by_letter = [] {
+  std::array<std::array<std::string_view, 4>, 26> table;
+  const auto add = [&](std::string_view word) {
+    auto& words = table[static_cast<std::size_t>(word.front() - 'a')];
+    std::size_t place = 0;
+    while (!words[place].empty()) ++place;
+    words[place] = word;
+  };
+  for (std::string_view word : item_keywords) add(word);
+  for (std::string_view word : other_reserved) add(word);
+  return table;
+}();
+
 template <std::size_t N>
 bool contains(const std::array<std::string_view, N>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -56,24 +70,13 @@ bool is_item_keyword(std::string_view word) {
 }
 
 bool is_reserved(std::string_view word) {
-  if (word.size() < 2 || word.size() > 8) return false;
-  switch (word.front()) {  // most names are turned away here
-    case 'a':
-    case 'c':
-    case 'e':
-    case 'f':
-    case 'g':
-    case 'i':
-    case 'l':
-    case 'm':
-    case 'p':
-    case 'r':
-    case 's':
-    case 't':
-      return contains(item_keywords, word) || contains(other_reserved, word);
-    default:
-      return false;
+  const unsigned letter =
+      word.empty() ? 0u : static_cast<unsigned char>(word.front()) - unsigned{'a'};
+  if (letter >= reserved_by_letter.size()) return false;
+  for (std::string_view reserved : reserved_by_letter[letter]) {
+    if (reserved == word && !word.empty()) return true;
   }
+  return false;
 }
 
 std::size_t comment_end(std::string_view text, std::size_t offset) {

@@ -262,6 +262,8 @@ struct file_item : peg::seq<peg::not_at<peg::eof>, item> {};
 struct file : peg::seq<peg::opt<peg::utf8::bom>, trivia, expect<edition_line>, peg::star<file_item>,
                        peg::eof>,
               makes_node<Kind::file> {};
+// What is left of a file behind the end of an item.
+struct file_part : peg::seq<trivia, peg::star<file_item>, peg::eof>, makes_node<Kind::file> {};
 
 // ---- rules whose matching needs more than characters; their actions report
 struct detached_unit : peg::seq<peg::identifier, trivia> {};

@@ -47,9 +47,13 @@ std::string_view name_of(SyntaxKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-SyntaxTree::SyntaxTree(FileId file, std::string_view text, std::vector<SyntaxNode> nodes,
+SyntaxTree::SyntaxTree(FileId file, std::string_view text, NodeArray nodes,
                        std::vector<Trivia> trivia)
     : file_(file), text_(text), nodes_(std::move(nodes)), trivia_(std::move(trivia)) {}
+
+SyntaxTree SyntaxTree::of_file(FileId file, std::string_view text) const {
+  return {file, text, nodes_, trivia_};
+}
 
 std::string SyntaxTree::documentation_of(NodeRef item) const {
   const std::uint32_t begin = item.span().begin;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,12 +25,28 @@ enum class SyntaxKind : std::uint8_t {
   return kind <= SyntaxKind::error_text;
 }
 
+// Without initialisers, so that large arrays of nodes are written once.
 struct SyntaxNode {
-  SyntaxKind kind = SyntaxKind::error;
-  std::uint32_t begin =
-      0;  // first byte of the first token; an empty node stands where it was expected
-  std::uint32_t end = 0;   // one past the last token
-  std::uint32_t next = 0;  // index behind this node's subtree
+  SyntaxKind kind;
+  std::uint32_t begin;  // of the first token; an empty node stands where it was expected
+  std::uint32_t end;    // one past the last token
+  std::uint32_t next;   // index behind this node's subtree
+};
+
+// Nodes in one piece, left as they are until they are written; copies share them.
+class NodeArray {
+ public:
+  NodeArray() = default;
+  explicit NodeArray(std::size_t size)
+      : nodes_(std::make_shared_for_overwrite<SyntaxNode[]>(size)), size_(size) {}
+  [[nodiscard]] SyntaxNode& operator[](std::size_t index) {
+    return nodes_[static_cast<std::ptrdiff_t>(index)];
+  }
+  [[nodiscard]] std::span<const SyntaxNode> all() const { return {nodes_.get(), size_}; }
+
+ private:
+  std::shared_ptr<SyntaxNode[]> nodes_;
+  std::size_t size_ = 0;
 };
 
 enum class TriviaKind : std::uint8_t { line_comment, block_comment, doc_comment };
@@ -95,13 +112,14 @@ class SyntaxTree {
  public:
   SyntaxTree() = default;
   // `text` must outlive the tree (the SourceMap owns it). nodes[0] is the root.
-  SyntaxTree(FileId file, std::string_view text, std::vector<SyntaxNode> nodes,
-             std::vector<Trivia> trivia);
+  SyntaxTree(FileId file, std::string_view text, NodeArray nodes, std::vector<Trivia> trivia);
+  // The same tree for another file with the same text.
+  [[nodiscard]] SyntaxTree of_file(FileId file, std::string_view text) const;
 
   [[nodiscard]] FileId file() const { return file_; }
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] NodeRef root() const { return {this, 0}; }
-  [[nodiscard]] const std::vector<SyntaxNode>& nodes() const { return nodes_; }
+  [[nodiscard]] std::span<const SyntaxNode> nodes() const { return nodes_.all(); }
   [[nodiscard]] const std::vector<Trivia>& trivia() const { return trivia_; }  // sorted by offset
   // The text of the `///` comments bound to a declaration: those on the lines just above it, joined
   // by line ends, without slashes and one leading blank; empty when there are none.
@@ -110,7 +128,7 @@ class SyntaxTree {
  private:
   FileId file_;
   std::string_view text_;
-  std::vector<SyntaxNode> nodes_;
+  NodeArray nodes_;
   std::vector<Trivia> trivia_;
 };
 

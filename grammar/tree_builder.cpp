@@ -48,25 +48,30 @@ void NodeStack::grow() {
   pieces_.push_back(std::make_unique_for_overwrite<SyntaxNode[]>(mask + 1));
 }
 
-std::vector<SyntaxNode> NodeStack::release() {
-  std::vector<SyntaxNode> nodes;
-  nodes.reserve(size_);
-  for (std::unique_ptr<SyntaxNode[]>& piece : pieces_) {
-    const std::uint32_t count =
-        std::min(mask + 1, size_ - static_cast<std::uint32_t>(nodes.size()));
-    nodes.insert(nodes.end(), piece.get(), piece.get() + count);
-    piece.reset();
+// A node with `next` nodes in its subtree, `depth` ancestors and index i in post-order goes to
+// i - (next - 1) + depth. Read from the end, ancestors come before what they hold.
+NodeArray NodeStack::release_in_preorder() {
+  NodeArray nodes(size_);
+  std::vector<std::uint32_t> first_of_open;  // first index of the subtrees round the current node
+  for (std::uint32_t index = size_; index-- > 0;) {
+    const SyntaxNode& one = pieces_[index >> shift][index & mask];
+    while (!first_of_open.empty() && index < first_of_open.back()) first_of_open.pop_back();
+    const std::uint32_t first = index + 1 - one.next;
+    const std::uint32_t target = first + static_cast<std::uint32_t>(first_of_open.size());
+    if (one.next > 1) first_of_open.push_back(first);
+    nodes[target] = {one.kind, one.begin, one.end, one.next + target};
+    if ((index & mask) == 0) pieces_.resize(index >> shift);
   }
-  pieces_.clear();
   size_ = 0;
   return nodes;
 }
 
-TreeBuilder::TreeBuilder(Dialect dialect, FileId file, std::string_view text, DiagnosticSink& sink,
-                         const ParseLimits& limits)
+TreeBuilder::TreeBuilder(Dialect dialect, FileId file, std::string_view text, std::uint32_t begin,
+                         DiagnosticSink& sink, const ParseLimits& limits)
     : dialect_(dialect),
       file_(file),
       text_(text),
+      begin_(begin),
       sink_(sink),
       limits_(limits),
       shortest_limit_(std::min(limits.token, limits.string)) {}
@@ -150,6 +155,7 @@ void TreeBuilder::check_token_limit(SyntaxKind kind, std::uint32_t begin, std::u
 }
 
 std::uint32_t TreeBuilder::comment(std::uint32_t begin) {
+  met_comment_ = true;
   const std::size_t end = scan::comment_end(text_, begin);
   if (end != std::string_view::npos) return static_cast<std::uint32_t>(end);
   const std::uint32_t file_end = static_cast<std::uint32_t>(text_.size());
@@ -199,7 +205,7 @@ void TreeBuilder::admit() {
 }
 
 void TreeBuilder::check_lines() {
-  for (std::size_t begin = 0; text_.size() - begin > limits_.line;) {
+  for (std::size_t begin = begin_; text_.size() - begin > limits_.line;) {
     const std::size_t end = std::min(text_.find('\n', begin), text_.size());
     if (end - begin > limits_.line) {
       const std::uint32_t start = static_cast<std::uint32_t>(begin);
@@ -214,15 +220,16 @@ void TreeBuilder::check_lines() {
 }
 
 void TreeBuilder::check_characters() {
-  const CharacterFaults faults = character_faults(text_, dialect_);
+  const CharacterFaults faults = character_faults(text_.substr(begin_), dialect_);
   const auto at_byte = [&](std::size_t begin, std::size_t size) {
-    return span(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin + size));
+    return span(static_cast<std::uint32_t>(begin_ + begin),
+                static_cast<std::uint32_t>(begin_ + begin + size));
   };
   for (std::size_t bidi : faults.bidi_controls) {
     report(
         Diagnostic(
             DiagnosticKind::bidi_control,
-            at_byte(bidi, static_cast<unsigned char>(text_[bidi]) == 0xD8 ? 2 : 3),
+            at_byte(bidi, static_cast<unsigned char>(text_[begin_ + bidi]) == 0xD8 ? 2 : 3),
             "a character that changes the direction of writing: the text is not what it looks like")
             .hint("remove it, or write it in a string as an escape such as `\\u{202e}`"));
   }
@@ -230,11 +237,11 @@ void TreeBuilder::check_characters() {
       faults.first_invalid == CharacterFaults::none)
     return;
   if (faults.first_control < faults.first_invalid) {
-    const unsigned code = static_cast<unsigned char>(text_[faults.first_control]);
+    const unsigned code = static_cast<unsigned char>(text_[begin_ + faults.first_control]);
     report(Diagnostic(DiagnosticKind::control_character, at_byte(faults.first_control, 1),
                       fmt::format("control character U+{:04X} in the text", code)));
   } else {
-    const unsigned byte = static_cast<unsigned char>(text_[faults.first_invalid]);
+    const unsigned byte = static_cast<unsigned char>(text_[begin_ + faults.first_invalid]);
     report(Diagnostic(DiagnosticKind::text_not_utf8, at_byte(faults.first_invalid, 1),
                       fmt::format("byte 0x{:02X} is not part of valid UTF-8", byte))
                .hint("save the file as UTF-8"));
@@ -242,34 +249,11 @@ void TreeBuilder::check_characters() {
   muted_ = true;
 }
 
-// Post-order to pre-order, in place: a node with `size` nodes in its subtree, `depth` ancestors and
-// index i goes to i - (size - 1) + depth.
-void TreeBuilder::order_nodes() {
-  std::vector<std::uint32_t> targets(nodes_.size());
-  std::vector<std::uint32_t> first_of_open;  // first index of the subtrees round the current node
-  for (std::uint32_t index = nodes_.size(); index-- > 0;) {
-    SyntaxNode& one = nodes_[index];
-    while (!first_of_open.empty() && index < first_of_open.back()) first_of_open.pop_back();
-    const std::uint32_t first = index + 1 - one.next;
-    targets[index] = first + static_cast<std::uint32_t>(first_of_open.size());
-    if (one.next > 1) first_of_open.push_back(first);
-    one.next += targets[index];
-  }
-  for (std::uint32_t index = 0; index < nodes_.size(); ++index) {
-    SyntaxNode moving = nodes_[index];
-    while (targets[index] != index) {
-      const std::uint32_t target = targets[index];
-      std::swap(moving, nodes_[target]);
-      std::swap(targets[index], targets[target]);
-    }
-    nodes_[index] = moving;
-  }
-}
-
 // Whatever is not in a token is blank or comment.
-std::vector<Trivia> TreeBuilder::comments(const std::vector<SyntaxNode>& nodes) const {
+std::vector<Trivia> TreeBuilder::comments(std::span<const SyntaxNode> nodes) const {
   std::vector<Trivia> trivia;
-  std::uint32_t place = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  if (dialect_ == Dialect::sdl && !met_comment_) return trivia;
+  std::uint32_t place = begin_ == 0 && text_.starts_with("\xEF\xBB\xBF") ? 3 : begin_;
   for (const SyntaxNode& one : nodes) {
     if (!is_token(one.kind)) continue;
     if (one.begin > place + 1) add_trivia(text_, place, one.begin, dialect_, trivia);
@@ -282,9 +266,8 @@ std::vector<Trivia> TreeBuilder::comments(const std::vector<SyntaxNode>& nodes) 
 SyntaxTree TreeBuilder::finish(SyntaxKind root) {
   SCENEC_ASSERT(nodes_.size() > 0 && nodes_.back().kind == root &&
                 nodes_.back().next == nodes_.size());
-  order_nodes();
-  std::vector<SyntaxNode> nodes = nodes_.release();
-  std::vector<Trivia> trivia = comments(nodes);
+  NodeArray nodes = nodes_.release_in_preorder();
+  std::vector<Trivia> trivia = comments(nodes.all());
   return SyntaxTree(file_, text_, std::move(nodes), std::move(trivia));
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,8 +37,9 @@ class NodeStack {
     ++size_;
   }
   void truncate(std::uint32_t size) { size_ = size; }
-  // The nodes as one array; the pieces are given back one by one, so memory never doubles.
-  [[nodiscard]] std::vector<SyntaxNode> release();
+  // The nodes, pushed in post-order, as one array in pre-order with `next` as an index; the stack
+  // is empty then. Pieces are given back as they are read, so memory never doubles.
+  [[nodiscard]] NodeArray release_in_preorder();
 
  private:
   static constexpr std::uint32_t shift = 14;
@@ -50,8 +52,9 @@ class NodeStack {
 
 class TreeBuilder {
  public:
-  TreeBuilder(Dialect dialect, FileId file, std::string_view text, DiagnosticSink& sink,
-              const ParseLimits& limits);
+  // Reads `text` from `begin` on; offsets count from the begin of the text.
+  TreeBuilder(Dialect dialect, FileId file, std::string_view text, std::uint32_t begin,
+              DiagnosticSink& sink, const ParseLimits& limits);
 
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] const ParseLimits& limits() const { return limits_; }
@@ -136,8 +139,7 @@ class TreeBuilder {
   [[nodiscard]] SyntaxTree finish(SyntaxKind root);
 
  private:
-  void order_nodes();
-  [[nodiscard]] std::vector<Trivia> comments(const std::vector<SyntaxNode>& nodes) const;
+  [[nodiscard]] std::vector<Trivia> comments(std::span<const SyntaxNode> nodes) const;
   void check_token_limit(SyntaxKind kind, std::uint32_t begin, std::uint32_t end);
   [[noreturn]] void nesting_exceeded(std::uint32_t begin, std::uint32_t end);
   void check_lines();
@@ -146,6 +148,7 @@ class TreeBuilder {
   Dialect dialect_;
   FileId file_;
   std::string_view text_;
+  std::uint32_t begin_;
   DiagnosticSink& sink_;
   ParseLimits limits_;
   std::uint32_t shortest_limit_;
@@ -157,6 +160,7 @@ class TreeBuilder {
   std::uint32_t forgiven_ = 0xFFFFFFFFu;
   std::uint32_t owed_closers_ = 0;
   std::uint32_t reported_ = 0;
+  bool met_comment_ = false;
   bool muted_ = false;  // the text is no text: its first bad byte was reported, that is enough
 };
 

@@ -14,6 +14,7 @@ struct RunRequest {
   SyntaxKind root;
   FileId file;
   std::string_view text;
+  std::uint32_t begin = 0;  // where reading begins; the text before it belongs to another tree
 };
 
 template <class Grammar, template <class...> class Control = peg::normal, class... States>
@@ -21,9 +22,9 @@ template <class Grammar, template <class...> class Control = peg::normal, class.
                                      const ParseLimits& limits, States&... states) {
   const std::string_view text =
       request.text.data() == nullptr ? std::string_view("") : request.text;
-  TreeBuilder builder(request.dialect, request.file, text, sink, limits);
-  peg::memory_input<peg::tracking_mode::lazy, peg::eol::lf_crlf, const char*> in(text.data(),
-                                                                                 text.size(), "");
+  TreeBuilder builder(request.dialect, request.file, text, request.begin, sink, limits);
+  peg::memory_input<peg::tracking_mode::lazy, peg::eol::lf_crlf, const char*> in(
+      text.data() + request.begin, text.size() - request.begin, "");
   try {
     builder.admit();
     const bool whole = peg::parse<Grammar, build, Control>(in, builder, states...);

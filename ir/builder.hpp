@@ -2,8 +2,11 @@
 // the invariants (verify) and hashes at the end.
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "ir/scene.hpp"
 
@@ -27,6 +30,8 @@ class SceneBuilder {
   ShapeRef add_shape(T shape) {
     return std::get<Table<T>>(scene_.shapes).push(std::move(shape));
   }
+  // Equal instances share a row: millions of them differ in their place only.
+  ShapeRef add_shape(const Instance& instance);
   // Places an item in the world; items of protos are collected by the caller.
   void place(Item item) { scene_.items.push_back(item); }
   void set_render(RenderSettings settings, OriginId origin);
@@ -37,13 +42,18 @@ class SceneBuilder {
   [[nodiscard]] Scene finish();
 
  private:
-  struct TransformHash {
-    std::size_t operator()(const Transform& transform) const;
-  };
+  void grow_transform_index();
+
   Scene scene_;
   std::unordered_map<std::string, NameId> names_;
   std::unordered_map<std::string, AssetId> assets_;
-  std::unordered_map<Transform, TransformId, TransformHash> transforms_;
+  std::unordered_map<std::uint32_t, Id<Instance>> instances_;  // by the proto's number
+  // Open addressing over the rows of scene_.transforms; a power of two, at most two thirds full.
+  struct TransformSlot {
+    TransformId row;
+    std::uint32_t hash = 0;  // tells most rows apart without reading them
+  };
+  std::vector<TransformSlot> transform_index_;
 };
 
 }  // namespace scenec::ir

@@ -82,7 +82,7 @@ class ContentHasher {
     hasher.add(items.size());
     for (const Item& item : items) {
       feed_shape(hasher, item.shape);
-      const Transform& transform = scene_.transforms[item.transform];
+      const Transform transform = scene_.transforms[item.transform];
       hasher.add(transform.is_identity());
       if (!transform.is_identity()) feed(hasher, transform.m);
       feed(hasher, item.material);

@@ -54,7 +54,7 @@ class Dumper {
               fmt::format("{}{}{} {{{}", indent, Schema<T>::name, label, fields(scene_.shape(id)));
           if (item.material.valid())
             text_ += fmt::format(" material = {};", names_.of(item.material));
-          const Transform& transform = scene_.transforms[item.transform];
+          const Transform transform = scene_.transforms[item.transform];
           if (!transform.is_identity())
             text_ += fmt::format(" transform = {};", value_text(transform));
           text_ += " }\n";

@@ -16,6 +16,7 @@
 #include "ir/render_settings.hpp"
 #include "ir/shapes.hpp"
 #include "ir/textures.hpp"
+#include "ir/transform_table.hpp"
 #include "ir/values.hpp"
 
 namespace scenec::ir {
@@ -39,7 +40,7 @@ struct Asset {
   Span span;         // the first place that names it
 };
 
-// One placed shape or instance, 28 bytes. `material` is always valid, except for an instance whose
+// One placed shape or instance, 24 bytes. `material` is always valid, except for an instance whose
 // proto keeps its own materials.
 struct Item {
   ShapeRef shape;
@@ -48,6 +49,7 @@ struct Item {
   OriginId origin;
   NameId name;  // the author's label, or invalid
 };
+static_assert(sizeof(Item) == 24);
 // A named group that is not placed itself: only its instances are. Items are in proto space.
 struct Proto {
   std::vector<Item> items;
@@ -73,7 +75,7 @@ class Scene {
   Table<std::string> names;
   Table<Asset> assets;
   Table<TextureNode> textures;
-  Table<Transform> transforms;
+  TransformTable transforms;
   Table<Material> materials;
   Table<Declared, Material> material_names;
   ShapeTables shapes;

@@ -20,7 +20,8 @@ class Verifier {
     check_materials();
     check_shapes();
     check_items();
-    for (const Transform& transform : scene_.transforms) check_transform(transform);
+    for (std::uint32_t i = 0; i < scene_.transforms.size(); ++i)
+      check_transform(scene_.transforms[TransformId(i)]);
     for (const Light& light : scene_.lights)
       std::visit([&](const auto& kind) { check_keys(kind); }, light.kind);
     for (const Camera& camera : scene_.cameras)
@@ -84,8 +85,6 @@ class Verifier {
     for (double entry : transform.m) {
       if (!std::isfinite(entry)) return complain("a transform is not finite");
     }
-    const auto& m = transform.m;
-    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) complain("a transform is not affine");
     if (determinant(transform) == 0) complain("a transform is singular");
   }
 

@@ -25,6 +25,8 @@ constexpr VerbSet writing{Verb::render, Verb::dump, Verb::convert};
 constexpr std::int64_t largest_sample_count = 1048576;
 constexpr std::int64_t largest_thread_count = 1024;
 constexpr std::int64_t largest_item_limit = 1'000'000'000;
+constexpr std::int64_t largest_source_limit = std::int64_t{1} << 40;
+constexpr std::int64_t largest_include_depth = 1000;  // each level takes some of the stack
 
 // `Target` is the optional member that takes the value.
 template <class Target, class T>
@@ -155,6 +157,19 @@ constexpr std::array option_table{
               [](Options& o, Text v) {
                 return store_parsed(o.max_items, parse_whole_number(v, 1, largest_item_limit));
               }},
+    OptionRow{"--max-source", "BYTES", "limit of all source text (default 1073741824)", compiling,
+              [](Options& o, Text v) {
+                return store_parsed(o.max_source, parse_whole_number(v, 1, largest_source_limit));
+              }},
+    OptionRow{"--max-includes", "N", "limit of included files (default 4096)", compiling,
+              [](Options& o, Text v) {
+                return store_parsed(o.max_includes, parse_whole_number(v, 0, largest_item_limit));
+              }},
+    OptionRow{
+        "--max-include-depth", "N", "limit of includes inside each other (default 64)", compiling,
+        [](Options& o, Text v) {
+          return store_parsed(o.max_include_depth, parse_whole_number(v, 0, largest_include_depth));
+        }},
     OptionRow{"--threads", "N", "threads to work with (default: all)",
               VerbSet{Verb::render, Verb::check},
               [](Options& o, Text v) {

@@ -50,6 +50,9 @@ struct Options {
   // What does not.
   std::string root;  // empty: where the scene lies (runtime/root.hpp)
   std::optional<std::int64_t> max_items;
+  std::optional<std::int64_t> max_source;
+  std::optional<std::int64_t> max_includes;
+  std::optional<std::int64_t> max_include_depth;
   std::optional<std::int64_t> threads;
   bool stamp = false;
   ColorChoice color = ColorChoice::automatic;

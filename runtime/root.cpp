@@ -26,6 +26,7 @@ bool is_beneath_working_directory(const std::string& directory) {
 
 bool is_course(const Options& options, const std::string& scene_path) {
   if (options.dialect) return *options.dialect == grammar::Dialect::course;
+  if (grammar::dialect_of(scene_path, {}) == grammar::Dialect::sdl) return false;  // by its name
   RealFileSystem disk;
   const auto content = disk.read(scene_path, grammar::ParseLimits{}.file);
   const std::string_view text = content ? content.value().bytes : std::string_view{};

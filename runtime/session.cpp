@@ -31,7 +31,13 @@ frontend::CompileOptions compile_options_of(const Options& options) {
   result.method = options.method;
   result.library = options.verb != Verb::render;
   result.camera_chosen = options.camera.has_value();
-  if (options.max_items) result.max_items = static_cast<std::uint64_t>(*options.max_items);
+  const auto limit = [](std::uint64_t& place, const std::optional<std::int64_t>& given) {
+    if (given) place = static_cast<std::uint64_t>(*given);
+  };
+  limit(result.max_items, options.max_items);
+  limit(result.source.total_bytes, options.max_source);
+  limit(result.source.include_files, options.max_includes);
+  limit(result.source.include_depth, options.max_include_depth);
   for (const NameAndValue& setting : options.settings) {
     result.params.push_back({.name = setting.name, .value = setting.value});
   }
@@ -78,10 +84,10 @@ Session::Session(const Options& options)
 }
 
 std::optional<frontend::LoadedFile> Session::load(
-    const std::optional<std::string>& output_directory) {
+    const std::optional<std::string>& output_directory, frontend::LoadTree load_tree) {
   if (!load_params()) return std::nullopt;
-  auto file =
-      frontend::load(scene_path_, compile_options_, files_, sources_, sink_, output_directory);
+  auto file = frontend::load(scene_path_, compile_options_, files_, sources_, sink_,
+                             output_directory, load_tree);
   loaded_ = true;
   scene_unreadable_ = !file.has_value();
   return file;
@@ -118,6 +124,12 @@ std::vector<NameAndValue> Session::settings() const {
 
 std::optional<ir::Scene> Session::compile(const frontend::LoadedFile& file) {
   return frontend::compile(file, compile_options_, files_, sources_, sink_);
+}
+
+std::optional<ir::Scene> Session::load_and_compile(ThreadPool& pool) {
+  compile_options_.pool = &pool;
+  const auto file = load(std::nullopt, frontend::LoadTree::unless_large);
+  return file ? compile(*file) : std::nullopt;
 }
 
 bool Session::has_read(const std::string& path) const {

@@ -9,6 +9,7 @@
 
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
+#include "base/parallel.hpp"
 #include "base/rooted_file_system.hpp"
 #include "base/source_map.hpp"
 #include "frontend/compile.hpp"
@@ -32,8 +33,11 @@ class Session {
   [[nodiscard]] DiagnosticSink& sink() { return sink_; }
 
   [[nodiscard]] std::optional<frontend::LoadedFile> load(
-      const std::optional<std::string>& output_directory = std::nullopt);
+      const std::optional<std::string>& output_directory = std::nullopt,
+      frontend::LoadTree load_tree = frontend::LoadTree::always);
   [[nodiscard]] std::optional<ir::Scene> compile(const frontend::LoadedFile& file);
+  // Both, for who wants no tree; nullopt also when the file could not be read.
+  [[nodiscard]] std::optional<ir::Scene> load_and_compile(ThreadPool& pool);
 
   // What the command line and the file of parameters set, each param once.
   [[nodiscard]] std::vector<NameAndValue> settings() const;

@@ -93,8 +93,8 @@ Range range_of(NodeRef node) {
   return range;
 }
 
-std::vector<Argument> arguments_of(NodeRef arguments) {
-  std::vector<Argument> list;
+Arguments arguments_of(NodeRef arguments) {
+  Arguments list;
   if (!arguments) return list;
   for (NodeRef child : arguments.children()) {
     if (child.is(SyntaxKind::argument))

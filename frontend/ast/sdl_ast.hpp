@@ -3,8 +3,8 @@
 #pragma once
 
 #include <string_view>
-#include <vector>
 
+#include "base/inline_list.hpp"
 #include "grammar/syntax_tree.hpp"
 
 namespace scenec::frontend::ast {
@@ -64,7 +64,8 @@ struct Argument {
   NodeRef name;  // empty: by position
   NodeRef expression;
 };
-[[nodiscard]] std::vector<Argument> arguments_of(NodeRef arguments);
+using Arguments = InlineList<Argument, 4>;
+[[nodiscard]] Arguments arguments_of(NodeRef arguments);
 
 // The item a block item stands for in messages: "a light", "`let`".
 [[nodiscard]] std::string_view item_words(SyntaxKind kind);

@@ -63,14 +63,9 @@ bool is_dark(const ir::RenderSettings& render) {
 
 }  // namespace
 
-void check_scene(Session& session, const grammar::SyntaxTree& tree, Lowering& lowering) {
+void check_scene(Session& session, Span end_of_file, Lowering& lowering) {
   const SceneNotes& notes = lowering.notes();
-  const auto end = static_cast<std::uint32_t>(tree.text().size());
-  const Span end_of_file{tree.file(), end, end};
-  std::size_t items = 0;
-  for (NodeRef child : tree.root().children())
-    items += child.is(SyntaxKind::edition) || grammar::is_token(child.kind()) ? 0u : 1u;
-  if (items == 0) {
+  if (notes.is_empty) {
     if (!session.sink.has_errors())
       session.error(DiagnosticKind::empty_file, end_of_file,
                     "the file declares and places nothing");

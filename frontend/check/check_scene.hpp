@@ -9,7 +9,7 @@ namespace scenec::frontend {
 
 // Reports an empty file, a missing or ambiguous camera, a scene without light, shapes without
 // material; chooses the camera of `render`.
-void check_scene(Session& session, const grammar::SyntaxTree& tree, Lowering& lowering);
+void check_scene(Session& session, Span end_of_file, Lowering& lowering);
 
 // `///` behind code documents nothing.
 void check_doc_comments(Session& session, const grammar::SyntaxTree& tree);

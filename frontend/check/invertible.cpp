@@ -40,6 +40,13 @@ Linear cofactors(const Linear& m) {
           m[1] * m[5] - m[2] * m[4], m[2] * m[3] - m[0] * m[5], m[0] * m[4] - m[1] * m[3]};
 }
 
+// The most frequent transform of all needs no measuring.
+bool is_pure_move(const ir::Transform& transform) {
+  const auto& m = transform.m;
+  return m[0] == 1 && m[1] == 0 && m[2] == 0 && m[4] == 0 && m[5] == 1 && m[6] == 0 && m[8] == 0 &&
+         m[9] == 0 && m[10] == 1;
+}
+
 std::string matrix_text(const ir::Transform& transform) {
   std::string text = "matrix([";
   for (std::size_t i = 0; i < 16; ++i) {
@@ -71,6 +78,7 @@ bool check_invertible(Session& session, const ir::Transform& transform, Span spa
                       .note(matrix_text(transform)));
     return false;
   }
+  if (is_pure_move(transform)) return true;
   const double condition = condition_number(transform);
   if (condition <= max_condition) return true;
   session.error(Diagnostic(DiagnosticKind::singular_transform, span,

@@ -8,11 +8,12 @@ namespace scenec::frontend {
 
 using grammar::NodeRef;
 
-bool place_arguments(Session& session, std::string_view callee,
-                     const std::vector<ast::Argument>& given, std::size_t parameter_count,
+bool place_arguments(Session& session, std::string_view callee, const ast::Arguments& given,
+                     std::size_t parameter_count,
                      const std::function<std::string_view(std::size_t)>& name_of,
-                     std::vector<std::size_t>& places) {
-  std::vector<NodeRef> taken(parameter_count);
+                     ArgumentPlaces& places) {
+  InlineList<NodeRef, 8> taken;
+  taken.resize(parameter_count);
   bool named = false;
   for (std::size_t i = 0; i < given.size(); ++i) {
     const ast::Argument& argument = given[i];

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <functional>
 #include <string_view>
-#include <vector>
 
+#include "base/inline_list.hpp"
 #include "frontend/ast/sdl_ast.hpp"
 #include "frontend/session.hpp"
 #include "grammar/syntax_tree.hpp"
@@ -13,10 +13,11 @@
 namespace scenec::frontend {
 
 // The index of the parameter of each argument, in `places`. False when one has no place (reported).
-bool place_arguments(Session& session, std::string_view callee,
-                     const std::vector<ast::Argument>& given, std::size_t parameter_count,
+using ArgumentPlaces = InlineList<std::size_t, 4>;
+bool place_arguments(Session& session, std::string_view callee, const ast::Arguments& given,
+                     std::size_t parameter_count,
                      const std::function<std::string_view(std::size_t)>& name_of,
-                     std::vector<std::size_t>& places);
+                     ArgumentPlaces& places);
 
 void report_missing_argument(Session& session, grammar::NodeRef call, std::string_view callee,
                              std::string_view parameter);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 
 #include "base/elementary.hpp"
 #include "base/text.hpp"
@@ -23,12 +24,15 @@ constexpr std::array<std::string_view, 4> constants{"pi", "tau", "black", "white
 }  // namespace
 
 const Builtin* find_builtin(std::string_view name) {
-  for (const auto functions : all_functions()) {
-    for (const Builtin& function : functions) {
-      if (function.name == name) return &function;
+  static const auto by_name = [] {
+    std::unordered_map<std::string_view, const Builtin*> index;
+    for (const auto functions : all_functions()) {
+      for (const Builtin& function : functions) index.emplace(function.name, &function);
     }
-  }
-  return nullptr;
+    return index;
+  }();
+  const auto found = by_name.find(name);
+  return found == by_name.end() ? nullptr : found->second;
 }
 
 std::vector<std::string_view> builtin_names() {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/inline_list.hpp"
 #include "frontend/eval/coerce.hpp"
 #include "frontend/eval/value.hpp"
 #include "frontend/session.hpp"
@@ -46,9 +47,9 @@ struct Call {
   grammar::NodeRef node;  // the whole call
   std::string_view function;
   std::span<const Parameter> parameters;
-  std::vector<Value> arguments;         // parallel to parameters; variadic: as given
-  std::vector<grammar::NodeRef> nodes;  // empty where a default stands
-  bool known = true;                    // every argument is
+  InlineList<Value, 4> arguments;         // parallel to parameters; variadic: as given
+  InlineList<grammar::NodeRef, 4> nodes;  // empty where a default stands
+  bool known = true;                      // every argument is
 
   [[nodiscard]] bool has(std::size_t i) const {
     return i < nodes.size() && static_cast<bool>(nodes[i]);

@@ -80,8 +80,7 @@ class Evaluator {
                      Scope& scope);
   Value call_builtin(grammar::NodeRef node, const Builtin& function, Scope& scope);
   Value select(grammar::NodeRef node, Scope& scope);
-  bool bind_builtin(Call& call, const Builtin& function, const std::vector<ast::Argument>& given,
-                    Scope& scope);
+  bool bind_builtin(Call& call, const Builtin& function, const ast::Arguments& given, Scope& scope);
   void unknown_name(grammar::NodeRef name, Scope& scope);
   [[nodiscard]] std::optional<Span> declared_later(grammar::NodeRef name) const;
   void loop_over_range(const ast::Loop& parts, Scope& scope,

@@ -15,10 +15,10 @@ using grammar::SyntaxKind;
 
 // ---- built-in functions
 
-bool Evaluator::bind_builtin(Call& call, const Builtin& function,
-                             const std::vector<ast::Argument>& given, Scope& scope) {
+bool Evaluator::bind_builtin(Call& call, const Builtin& function, const ast::Arguments& given,
+                             Scope& scope) {
   const auto parameters = function.parameters;
-  std::vector<std::size_t> places;
+  ArgumentPlaces places;
   if (function.variadic) {
     call.arguments.resize(given.size());
     call.nodes.resize(given.size());
@@ -75,7 +75,7 @@ Value Evaluator::call_builtin(NodeRef node, const Builtin& function, Scope& scop
 Value Evaluator::select(NodeRef node, Scope& scope) {
   constexpr std::array<std::string_view, 3> names{"cond", "a", "b"};
   const auto given = ast::arguments_of(node.find_child(SyntaxKind::arguments));
-  std::vector<std::size_t> places;
+  ArgumentPlaces places;
   if (!place_arguments(
           session_, "select", given, names.size(), [&](std::size_t i) { return names[i]; }, places))
     return {};

@@ -93,7 +93,7 @@ bool Evaluator::bind_arguments(NodeRef parameter_list, NodeRef arguments, NodeRe
     if (!parameter.name) return false;
   }
   const auto given = ast::arguments_of(arguments);
-  std::vector<std::size_t> places;
+  ArgumentPlaces places;
   const auto name_of = [&](std::size_t i) { return parameters[i].name.text(); };
   if (!place_arguments(session_, callee, given, parameters.size(), name_of, places)) return false;
   std::vector<NodeRef> expressions(parameters.size());

@@ -164,7 +164,7 @@ Value Evaluator::name_value(NodeRef node, Scope& scope) {
 
 // Members, indices and calls may follow each other without end, so they are unwound, not recursed.
 Value Evaluator::postfix(NodeRef node, Scope& scope) {
-  std::vector<NodeRef> outer_first;
+  InlineList<NodeRef, 8> outer_first;
   NodeRef base = node;
   while (base &&
          (base.is(SyntaxKind::member) || base.is(SyntaxKind::index) || base.is(SyntaxKind::call))) {

@@ -102,7 +102,7 @@ std::optional<Value> Lowering::clock_setting(NodeRef node, Scope& scope) {
   return clock_in_frame(parts, *session_.options.frame, scope);
 }
 
-void Lowering::report_missing_clock(const grammar::SyntaxTree& tree, Scope& scope) {
+void Lowering::report_missing_clock(Scope& scope) {
   if (!session_.options.frame || clock_.valid()) return;
   constexpr const char* message = "`--frames` needs a clock, and this scene has none";
   for (const Binding& binding : scope.bindings()) {
@@ -115,10 +115,8 @@ void Lowering::report_missing_clock(const grammar::SyntaxTree& tree, Scope& scop
                                           has_range ? "" : " and give it a range")));
     return;
   }
-  const NodeRef edition = tree.root().find_child(SyntaxKind::edition);
-  session_.report(
-      Diagnostic(DiagnosticKind::clock_missing, edition ? edition.span() : Span{}, message)
-          .hint("declare one: `@clock param t: time = 0s in 0s .. 6s;`"));
+  session_.report(Diagnostic(DiagnosticKind::clock_missing, edition_, message)
+                      .hint("declare one: `@clock param t: time = 0s in 0s .. 6s;`"));
 }
 
 }  // namespace scenec::frontend

@@ -20,8 +20,14 @@ void Lowering::declare(Scope& scope, NodeRef name, BindingKind kind, Value value
     return;
   }
   evaluator_.lint_hiding(name, scope);
-  Binding binding{
-      .name = word, .span = name.span(), .kind = kind, .value = std::move(value), .node = node};
+  // Of the others nothing is looked up again, so that their tree may go (part_reader.hpp).
+  const bool looked_up =
+      kind == BindingKind::function || kind == BindingKind::macro || kind == BindingKind::param;
+  Binding binding{.name = word,
+                  .span = name.span(),
+                  .kind = kind,
+                  .value = std::move(value),
+                  .node = looked_up ? node : NodeRef{}};
   binding.lint_unused = !session_.is_allowed(DiagnosticKind::unused_declaration);
   scope.add(std::move(binding));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "frontend/check/check_scene.hpp"
 #include "frontend/lower/lowering_access.hpp"
 #include "frontend/lower/modules.hpp"
 
@@ -60,12 +61,37 @@ void report_unknown_kind(Session& session, grammar::NodeRef kind, std::string_vi
                               kind.text(), legal, fmt::format("kinds of {}", family)));
 }
 
-void Lowering::lower_scene(const grammar::SyntaxTree& tree) {
-  main_file_ = tree.file();
+bool Lowering::take_notes(const grammar::SyntaxTree& tree) {
+  check_doc_comments(session_, tree);
+  bool is_referred_to = false;
+  for (NodeRef child : tree.root().children()) {
+    switch (child.kind()) {
+      case SyntaxKind::edition:
+        edition_ = child.span();
+        break;
+      case SyntaxKind::fn:
+      case SyntaxKind::macro:
+      case SyntaxKind::param:
+      case SyntaxKind::render:
+        is_referred_to = true;
+        [[fallthrough]];
+      default:
+        if (!grammar::is_token(child.kind())) notes_.is_empty = false;
+    }
+  }
+  return is_referred_to;
+}
+
+void Lowering::lower_scene(TreeSource& trees, FileId file, FileIdentity identity) {
+  main_file_ = file;
+  modules_->open_scene(file, identity);
   Scope scope;
-  items(tree.root(), scope, {});
+  while (const grammar::SyntaxTree* tree = trees.next()) {
+    if (take_notes(*tree)) trees.keep();
+    items(tree->root(), scope, {});
+  }
   report_unknown_settings(scope);
-  report_missing_clock(tree, scope);
+  report_missing_clock(scope);
   const bool scene = notes_.first_placed.valid() || notes_.first_camera.valid();
   if (scene) close(scope);
   if (session_.sink.has_errors()) return;  // a name misspelt elsewhere is not unused

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "frontend/ast/sdl_ast.hpp"
@@ -16,6 +17,7 @@
 #include "frontend/eval/evaluate.hpp"
 #include "frontend/lower/placement.hpp"
 #include "frontend/lower/proto_gaps.hpp"
+#include "frontend/part_reader.hpp"
 #include "frontend/session.hpp"
 #include "grammar/syntax_tree.hpp"
 
@@ -35,6 +37,7 @@ struct SceneNotes {
   std::size_t bare_count = 0;
   bool light = false;
   bool emission = false;
+  bool is_empty = true;  // no item in the file
 };
 
 class Lowering final : public FieldCollector {
@@ -45,12 +48,17 @@ class Lowering final : public FieldCollector {
   Lowering& operator=(const Lowering&) = delete;
 
   // The file given on the command line.
-  void lower_scene(const grammar::SyntaxTree& tree);
+  void lower_scene(TreeSource& trees, FileId file, FileIdentity identity);
   // An included file: declares its names in `scope`; what it places is only checked.
   void declare_all(const grammar::SyntaxTree& tree, Scope& scope);
   [[nodiscard]] const SceneNotes& notes() const { return notes_; }
   [[nodiscard]] ir::RenderSettings& render() { return render_; }
   [[nodiscard]] ir::OriginId render_origin() const { return render_origin_; }
+
+  // What evaluating a module leaves behind besides its scope.
+  [[nodiscard]] std::size_t lint_count() const { return unused_.size(); }
+  [[nodiscard]] bool has_gaps(ir::ProtoId proto) const { return proto_gaps_.any(proto); }
+  bool exchange_emission(bool emission) { return std::exchange(notes_.emission, emission); }
 
   void collect(grammar::NodeRef block, Scope& scope, Fields& fields) override;
 
@@ -78,7 +86,9 @@ class Lowering final : public FieldCollector {
   // The value of the `@clock` param `node` in the frame asked for, if one is.
   [[nodiscard]] std::optional<Value> clock_setting(NodeRef node, Scope& scope);
   [[nodiscard]] Value clock_in_frame(const ast::Item& parts, const Frame& frame, Scope& scope);
-  void report_missing_clock(const grammar::SyntaxTree& tree, Scope& scope);
+  void report_missing_clock(Scope& scope);
+  // What the tree says apart from its items; whether something will refer to its nodes.
+  [[nodiscard]] bool take_notes(const grammar::SyntaxTree& tree);
 
   // placed things
   void shape(NodeRef node, Scope& scope, const Surroundings& around);
@@ -116,6 +126,7 @@ class Lowering final : public FieldCollector {
   std::deque<Fields> field_pool_;  // one a level of nesting, reused
   std::size_t field_depth_ = 0;
   FileId main_file_;
+  Span edition_;
   Span clock_;  // name of the `@clock` param; invalid: none
   SceneNotes notes_;
   ir::RenderSettings render_;

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "base/text.hpp"
+#include "frontend/frontend_cache.hpp"
 #include "frontend/lower/lowering.hpp"
 #include "frontend/lower/std_library.hpp"
 #include "grammar/parse.hpp"
@@ -15,11 +17,14 @@ namespace scenec::frontend {
 using grammar::NodeRef;
 using grammar::SyntaxKind;
 
-namespace {
-constexpr std::size_t max_include_depth = 64;
-constexpr std::size_t max_include_files = 4096;
-constexpr std::uint64_t max_include_bytes = std::uint64_t{512} << 20;
-}  // namespace
+Modules::Modules(Lowering& lowering, Session& session) : lowering_(lowering), session_(session) {
+  if (session.options.cache != nullptr) session.options.cache->begin_compilation();
+}
+
+void Modules::open_scene(FileId file, FileIdentity identity) {
+  open_.push_back({std::string(session_.sources.path(file)), identity, {}});
+  source_bytes_ = session_.sources.text(file).size();
+}
 
 Modules::Place Modules::place_of(const std::string& written, FileId from) const {
   const bool from_library = library_texts_.contains(from);
@@ -36,7 +41,26 @@ Modules::Place Modules::place_of(const std::string& written, FileId from) const 
   return {true, std::move(path)};
 }
 
-std::unique_ptr<grammar::SyntaxTree> Modules::read_library(const std::string& path, NodeRef use) {
+bool Modules::parse(FileId file, std::string_view text, NodeRef use, Module& module) {
+  source_bytes_ += text.size();
+  const std::uint64_t most = session_.options.source.total_bytes;
+  if (source_bytes_ > most) {
+    session_.error(
+        Diagnostic(DiagnosticKind::text_too_long, use.span(),
+                   fmt::format("the scene and what it includes have more than {} bytes", most))
+            .hint("`--max-source` sets the limit"));
+    return false;
+  }
+  module.tree = std::make_unique<grammar::SyntaxTree>(
+      parsed_text(session_.options, grammar::Dialect::sdl, file, text, session_.sink));
+  Hasher hasher;
+  hasher.add(session_.sources.path(file));
+  hasher.add(text);
+  module.key = hasher.result();
+  return true;
+}
+
+bool Modules::read_library(const std::string& path, NodeRef use, Module& module) {
   const std::optional<std::string_view> text = find_library(path);
   if (!text) {
     std::string_view name = path;
@@ -46,53 +70,78 @@ std::unique_ptr<grammar::SyntaxTree> Modules::read_library(const std::string& pa
     session_.error(unknown_word(DiagnosticKind::unknown_library, use.span(),
                                 fmt::format("there is no library {}", quoted_string(name)), name,
                                 legal, "libraries"));
-    return nullptr;
+    return false;
   }
+  if (is_cycle(path, {}, use)) return false;
   const FileId file = session_.sources.add(path, *text, nullptr);
   library_texts_.insert(file);
-  return std::make_unique<grammar::SyntaxTree>(grammar::parse_sdl(file, *text, session_.sink));
+  open_.push_back({path, {}, use.span()});
+  return parse(file, *text, use, module);
 }
 
-std::unique_ptr<grammar::SyntaxTree> Modules::read(const Place& place, NodeRef use) {
-  if (place.in_library) return read_library(place.path, use);
-  auto content = session_.files.read(place.path, max_include_bytes);
+bool Modules::read(const Place& place, NodeRef use, Module& module) {
+  if (place.in_library) return read_library(place.path, use, module);
+  auto content = session_.files.read(place.path, grammar::ParseLimits{}.file);
   if (!content) {
     session_.unreadable(place.path, content.error(), use.span());
-    return nullptr;
+    return false;
   }
+  if (is_cycle(place.path, content.value().identity, use)) return false;
   const std::string_view text = content.value().bytes;
   const FileId file = session_.sources.add(place.path, text, content.value().owner);
-  return std::make_unique<grammar::SyntaxTree>(grammar::parse_sdl(file, text, session_.sink));
+  open_.push_back({place.path, content.value().identity, use.span()});
+  return parse(file, text, use, module);
+}
+
+bool Modules::is_cycle(const std::string& path, FileIdentity identity, NodeRef use) {
+  const auto is_same = [&](const Open& open) {
+    return open.path == path || (identity.valid() && open.identity == identity);
+  };
+  const auto first = std::find_if(open_.begin(), open_.end(), is_same);
+  if (first == open_.end()) return false;
+  Diagnostic diagnostic(DiagnosticKind::recursive_call, use.span(),
+                        fmt::format("{} includes itself", quoted_string(first->path)));
+  if (first->path != path)
+    diagnostic.notes.push_back({fmt::format("{} is the same file", quoted_string(path)), {}});
+  for (auto step = first + 1; step != open_.end(); ++step) {
+    diagnostic.notes.push_back({fmt::format("{} includes {} here", quoted_string((step - 1)->path),
+                                            quoted_string(step->path)),
+                                step->use});
+  }
+  session_.error(std::move(diagnostic));
+  return true;
+}
+
+bool Modules::check_limits(NodeRef use) {
+  const SourceLimits& limits = session_.options.source;
+  const auto exceeded = [&](std::string message, std::string_view option) {
+    session_.error(Diagnostic(DiagnosticKind::too_many_includes, use.span(), std::move(message))
+                       .hint(fmt::format("`{}` sets the limit", option)));
+    return false;
+  };
+  if (open_.size() > limits.include_depth) {
+    return exceeded(fmt::format("includes are nested deeper than {}", limits.include_depth),
+                    "--max-include-depth");
+  }
+  if (modules_.size() > limits.include_files) {
+    return exceeded(fmt::format("there are more than {} included files", limits.include_files),
+                    "--max-includes");
+  }
+  return true;
 }
 
 std::shared_ptr<Scope> Modules::load(const std::string& written, NodeRef use) {
   const Place place = place_of(written, use.span().file);
-  const auto [entry, added] = modules_.try_emplace(place);
-  Module& module = entry->second;
-  if (!added) {
-    if (module.loading)
-      session_.error(DiagnosticKind::recursive_call, use.span(),
-                     fmt::format("{} includes itself", quoted_string(place.path)));
-    return module.loading ? nullptr : module.scope;
+  if (const auto known = modules_.find(place); known != modules_.end()) {
+    static_cast<void>(is_cycle(place.path, {}, use));
+    return known->second.scope;
   }
-  if (open_.size() >= max_include_depth || modules_.size() > max_include_files) {
-    const bool deep = open_.size() >= max_include_depth;
-    session_.error(DiagnosticKind::too_many_includes, use.span(),
-                   deep ? fmt::format("includes are nested deeper than {}", max_include_depth)
-                        : fmt::format("there are more than {} included files", max_include_files));
-    module.loading = false;
-    return nullptr;
-  }
-  module.tree = read(place, use);
-  if (module.tree == nullptr) {
-    module.loading = false;
-    return nullptr;
-  }
-  open_.push_back(use.span());
-  module.scope = std::make_shared<Scope>();
-  lowering_.declare_all(*module.tree, *module.scope);
-  open_.pop_back();
-  module.loading = false;
+  Module& module = modules_[place];
+  if (!check_limits(use)) return nullptr;
+  const std::size_t depth = open_.size();
+  const Traces before = traces();
+  if (read(place, use, module) && !reuse(module)) evaluate(module, before);
+  open_.resize(depth);
   return module.scope;
 }
 

@@ -13,12 +13,9 @@ ExitCode verbs::check(const Options& options, const Environment& environment) {
     static_cast<void>(session.finish(environment));
     return ExitCode::file_error;
   }
-  if (const auto file = session.load()) {
-    if (const auto scene = session.compile(*file)) {
-      ThreadPool pool(static_cast<unsigned>(options.threads.value_or(0)));
-      static_cast<void>(backend::prepare(*scene, session.files(), pool, session.sink()));
-    }
-  }
+  ThreadPool pool(static_cast<unsigned>(options.threads.value_or(0)));
+  if (const auto scene = session.load_and_compile(pool))
+    static_cast<void>(backend::prepare(*scene, session.files(), pool, session.sink()));
   return session.finish(environment);
 }
 

@@ -28,7 +28,9 @@ ExitCode verbs::dump(const Options& options, const Environment& environment) {
     static_cast<void>(session.finish(environment));
     return ExitCode::file_error;
   }
-  const auto file = session.load();
+  const auto file =
+      session.load(std::nullopt, options.stage == DumpStage::ir ? frontend::LoadTree::unless_large
+                                                                : frontend::LoadTree::always);
   if (!file) return session.finish(environment);
   if (options.stage == DumpStage::tree) {
     return write_text(options.output, ended(grammar::dump_tree(file->tree)), session, environment);

@@ -94,9 +94,7 @@ class RenderRun {
         options_.stats_file.empty() || check_output(options_.stats_file, session_.sink());
     const bool others_fit = check_outputs(options_, session_.sink());
     if (!format || !stats_fit || !others_fit) return refuse_output();
-    const auto file = session_.load();
-    if (!file) return session_.finish(environment_);
-    const auto scene = session_.compile(*file);
+    const auto scene = session_.load_and_compile(pool_);
     clock_.finish("compile");
     if (!scene) return session_.finish(environment_);
     const auto settings = settings_of(options_, *scene, environment_);

@@ -5,9 +5,11 @@
 
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
 
 namespace scenec {
 namespace {
@@ -66,6 +68,18 @@ TEST(ShortNumberText, IsForPeople) {
   EXPECT_EQ(short_number_text(0.1 + 0.2), "0.3");
   EXPECT_EQ(short_number_text(-2.5), "-2.5");
   EXPECT_EQ(short_number_text(1234567), "1.23457e+06");
+}
+
+TEST(ParseDouble, short_decimals_are_rounded_as_from_chars_rounds_them) {
+  std::mt19937_64 random(20240607);
+  for (int round = 0; round < 200'000; ++round) {
+    std::string text = std::to_string(random() % 100'000'000'000'000'000ULL >> random() % 50);
+    if (round % 4 != 0) text.insert(1 + random() % text.size(), ".");
+    if (text.back() == '.') text += '0';
+    double expected = 0;
+    std::from_chars(text.data(), text.data() + text.size(), expected);
+    ASSERT_THAT(parse_double(text), Optional(expected)) << text;
+  }
 }
 
 TEST(ParseDouble, AcceptsNumbersOnly) {

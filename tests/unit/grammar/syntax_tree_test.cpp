@@ -13,7 +13,7 @@ namespace {
 
 // Every subtree lies within its parent, children follow each other, spans are those of the tokens.
 void expect_sound(const SyntaxTree& tree) {
-  const std::vector<SyntaxNode>& nodes = tree.nodes();
+  const std::span<const SyntaxNode> nodes = tree.nodes();
   ASSERT_FALSE(nodes.empty());
   ASSERT_EQ(nodes[0].next, nodes.size());
   std::uint32_t place = 0;
