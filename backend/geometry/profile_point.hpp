@@ -21,17 +21,31 @@ struct ProfileJet {
   ProfilePoint slope;  // d/ds
 };
 
+// The same for coordinates in two rows, which are used up.
+[[nodiscard]] inline ProfileJet evaluate_in_place(double* radius, double* height, std::size_t n,
+                                                  double s) {
+  const double r = 1 - s;
+  for (std::size_t level = n; level > 1; --level) {
+    for (std::size_t i = 0; i < level; ++i) {
+      radius[i] = r * radius[i] + s * radius[i + 1];
+      height[i] = r * height[i] + s * height[i + 1];
+    }
+  }
+  const auto degree = static_cast<double>(n);
+  return {{r * radius[0] + s * radius[1], r * height[0] + s * height[1]},
+          {degree * (radius[1] - radius[0]), degree * (height[1] - height[0])}};
+}
+
 [[nodiscard]] inline ProfileJet evaluate_profile(std::span<const ProfilePoint> control, double s) {
   const std::size_t n = control.size() - 1;
-  std::array<ProfilePoint, max_profile_degree + 1> p;
-  for (std::size_t i = 0; i <= n; ++i) p[i] = control[i];
-  const double r = 1 - s;
-  for (std::size_t level = n; level > 1; --level)
-    for (std::size_t i = 0; i < level; ++i)
-      p[i] = {r * p[i].radius + s * p[i + 1].radius, r * p[i].height + s * p[i + 1].height};
-  const auto degree = static_cast<double>(n);
-  return {{r * p[0].radius + s * p[1].radius, r * p[0].height + s * p[1].height},
-          {degree * (p[1].radius - p[0].radius), degree * (p[1].height - p[0].height)}};
+  // Rows of plain numbers: an array of points would be zeroed first, at the cost of all the rest.
+  std::array<double, max_profile_degree + 1> radius;
+  std::array<double, max_profile_degree + 1> height;
+  for (std::size_t i = 0; i <= n; ++i) {
+    radius[i] = control[i].radius;
+    height[i] = control[i].height;
+  }
+  return evaluate_in_place(radius.data(), height.data(), n, s);
 }
 
 // The slope, or where it is zero the limit of its direction at the nearer end.

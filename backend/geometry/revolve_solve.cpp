@@ -38,9 +38,11 @@ Range operator-(const Range& a) {
   return {-a.high, -a.low};
 }
 Range operator*(const Range& a, const Range& b) {
-  const auto [low, high] =
-      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-  return {low, high};
+  const double p = a.low * b.low;
+  const double q = a.low * b.high;
+  const double r = a.high * b.low;
+  const double s = a.high * b.high;
+  return {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))};
 }
 Range operator*(const Range& a, double s) {
   return s >= 0 ? Range{a.low * s, a.high * s} : Range{a.high * s, a.low * s};
@@ -57,16 +59,36 @@ constexpr Branches near_branch = 1;
 constexpr Branches far_branch = 2;
 constexpr Branches both_branches = 3;
 
+// A part of a segment by its own control points, in rows of plain numbers so that making one does
+// not zero them first.
 struct Piece {
-  std::array<ProfilePoint, max_profile_degree + 1> points;
+  std::array<double, max_profile_degree + 1> radius;
+  std::array<double, max_profile_degree + 1> height;
   std::size_t degree = 0;
   double start = 0;  // in s of the segment
   double width = 1;
 
-  [[nodiscard]] std::span<const ProfilePoint> control() const {
-    return {points.data(), degree + 1};
+  [[nodiscard]] ProfileJet at(double s) const {
+    std::array<double, max_profile_degree + 1> x;
+    std::array<double, max_profile_degree + 1> y;
+    for (std::size_t i = 0; i <= degree; ++i) {
+      x[i] = radius[i];
+      y[i] = height[i];
+    }
+    return evaluate_in_place(x.data(), y.data(), degree, s);
   }
 };
+
+void halve_row(std::size_t n, const double* row, double* left, double* right) {
+  for (std::size_t i = 0; i <= n; ++i) right[i] = row[i];
+  for (std::size_t level = 0; level < n; ++level) {
+    left[level] = right[0];
+    for (std::size_t i = 0; i < n - level; ++i) right[i] = 0.5 * (right[i] + right[i + 1]);
+  }
+  left[n] = right[0];
+  // What is left of the triangle runs along its right edge: right[i] is the i-th of the second
+  // half.
+}
 
 void halve(const Piece& piece, Piece& left, Piece& right) {
   const std::size_t n = piece.degree;
@@ -74,16 +96,8 @@ void halve(const Piece& piece, Piece& left, Piece& right) {
   left.width = right.width = 0.5 * piece.width;
   left.start = piece.start;
   right.start = piece.start + left.width;
-  for (std::size_t i = 0; i <= n; ++i) right.points[i] = piece.points[i];
-  for (std::size_t level = 0; level < n; ++level) {
-    left.points[level] = right.points[0];
-    for (std::size_t i = 0; i < n - level; ++i)
-      right.points[i] = {0.5 * (right.points[i].radius + right.points[i + 1].radius),
-                         0.5 * (right.points[i].height + right.points[i + 1].height)};
-  }
-  left.points[n] = right.points[0];
-  // What is left of the triangle runs backwards along the right edge already: points[i] is its
-  // i-th.
+  halve_row(n, piece.radius.data(), left.radius.data(), right.radius.data());
+  halve_row(n, piece.height.data(), left.height.data(), right.height.data());
 }
 
 struct Hull {
@@ -99,18 +113,18 @@ void widen(Range& r, double v) {
 }
 
 Hull hull_of(const Piece& piece) {
-  const auto p = piece.control();
-  Hull h{{p[0].radius, p[0].radius},
-         {p[0].height, p[0].height},
-         {infinity, -infinity},
-         {infinity, -infinity}};
-  const auto n = static_cast<double>(piece.degree);
-  for (std::size_t i = 1; i < p.size(); ++i) {
-    widen(h.radius, p[i].radius);
-    widen(h.height, p[i].height);
-    widen(h.radius_slope, n * (p[i].radius - p[i - 1].radius));
-    widen(h.height_slope, n * (p[i].height - p[i - 1].height));
+  const double* r = piece.radius.data();
+  const double* y = piece.height.data();
+  Hull h{{r[0], r[0]}, {y[0], y[0]}, {infinity, -infinity}, {infinity, -infinity}};
+  for (std::size_t i = 1; i <= piece.degree; ++i) {
+    widen(h.radius, r[i]);
+    widen(h.height, y[i]);
+    widen(h.radius_slope, r[i] - r[i - 1]);
+    widen(h.height_slope, y[i] - y[i - 1]);
   }
+  const auto n = static_cast<double>(piece.degree);
+  h.radius_slope = h.radius_slope * n;
+  h.height_slope = h.height_slope * n;
   return h;
 }
 
@@ -129,7 +143,10 @@ class Solver {
       pieces_ = 0;
       Piece whole;
       const auto control = revolve_.profile().segment(i);
-      std::copy(control.begin(), control.end(), whole.points.begin());
+      for (std::size_t k = 0; k < control.size(); ++k) {
+        whole.radius[k] = control[k].radius;
+        whole.height[k] = control[k].height;
+      }
       whole.degree = control.size() - 1;
       search(whole, 0, both_branches);
     }
@@ -251,7 +268,7 @@ class Solver {
     Piece right;
     halve(piece, left, right);
     // The half the ray reaches first is likely to prune the other.
-    const bool rising = piece.points[piece.degree].height >= piece.points[0].height;
+    const bool rising = piece.height[piece.degree] >= piece.height[0];
     const bool left_first = rising == (d_.y >= 0);
     search(left_first ? left : right, depth + 1, branches);
     search(left_first ? right : left, depth + 1, branches);
@@ -292,9 +309,8 @@ class Solver {
   // end that is zero within its error counts, so that no root is lost between two pieces.
   template <class Function>
   void find_root(const Piece& piece, Branches branches, Function&& function) {
-    const auto control = piece.control();
-    const Sample first = function(evaluate_profile(control, 0));
-    const Sample last = function(evaluate_profile(control, 1));
+    const Sample first = function(piece.at(0));
+    const Sample last = function(piece.at(1));
     const bool change = (first.value < 0) != (last.value < 0);
     if (!change) {
       if (std::fabs(first.value) <= first.error)
@@ -309,7 +325,7 @@ class Solver {
     Sample at = first;
     for (int step = 0; step < max_root_steps; ++step) {
       if (!(u > low && u < high)) u = 0.5 * (low + high);
-      at = function(evaluate_profile(control, u));
+      at = function(piece.at(u));
       if (at.value == 0) break;
       ((at.value < 0) == (first.value < 0) ? low : high) = u;
       const double next = u - at.value / at.slope;
@@ -327,7 +343,7 @@ class Solver {
     double t = std::clamp(middle_, reach.low, reach.high);
     if (a_ == 0 || branches != both_branches)
       t = std::clamp(local_t(t_min_), reach.low, reach.high);
-    if (d_.y != 0) t = (evaluate_profile(piece.control(), 0.5).point.height - o_.y) / d_.y;
+    if (d_.y != 0) t = (piece.at(0.5).point.height - o_.y) / d_.y;
     accept(piece.start + 0.5 * piece.width, t, both_branches);
   }
 

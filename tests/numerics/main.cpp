@@ -1,4 +1,5 @@
-// Runs the cases; with --docs=DIR also checks that DIR/numerics.md says what they found.
+// Runs the cases; with --docs=DIR also checks that DIR/numerics.md says what they found. With
+// --times it prints what the solvers of revolve cost, and runs nothing.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "tests/numerics/document.hpp"
+#include "tests/numerics/times.hpp"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
@@ -14,8 +16,12 @@ int main(int argc, char** argv) {
   constexpr std::string_view option = "--docs=";
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
+    if (argument == "--times") {
+      std::fputs(scenec::numerics::solver_times().c_str(), stdout);
+      return 0;
+    }
     if (!argument.starts_with(option)) {
-      std::fprintf(stderr, "usage: scenec-numerics [--docs=DIR] [--gtest_...]\n");
+      std::fprintf(stderr, "usage: scenec-numerics [--docs=DIR | --times] [--gtest_...]\n");
       return 2;
     }
     docs = argument.substr(option.size());
