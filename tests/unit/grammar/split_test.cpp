@@ -27,7 +27,7 @@ using Parts = std::vector<std::string>;
 TEST(Split, a_part_ends_behind_an_item) {
   EXPECT_EQ(parts_of("sdl 1; let a = 1;\nsphere { radius = 1; }", 1),
             (Parts{"sdl 1;", " let a = 1;", "\nsphere { radius = 1; }"}));
-  EXPECT_EQ(parts_of("sdl 1; let a = 1; let b = 2; let c = 3;", 12),
+  EXPECT_EQ(parts_of("sdl 1; let a = 1; let b = 2; let c = 3;", 11),
             (Parts{"sdl 1; let a = 1;", " let b = 2;", " let c = 3;"}));
   EXPECT_EQ(parts_of("", 1), Parts{});
   EXPECT_EQ(parts_of("sdl 1;\n// the end", 1), (Parts{"sdl 1;", "\n// the end"}));
