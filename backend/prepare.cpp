@@ -93,10 +93,6 @@ std::vector<MeshGroup> group_meshes(const ir::Scene& scene) {
   return groups;
 }
 
-bool same_result(const ir::Mesh& a, const ir::Mesh& b) {
-  return a.unit == b.unit && a.normals == b.normals;
-}
-
 // The place of an inline mesh: the first item that shows it.
 std::vector<Span> spans_of_meshes(const ir::Scene& scene) {
   std::vector<Span> spans(scene.table<ir::Mesh>().size());
@@ -113,34 +109,95 @@ std::vector<Span> spans_of_meshes(const ir::Scene& scene) {
   return spans;
 }
 
+void take_report(MeshReport& report, TaskReport& task) {
+  if (report.error) task.diagnostics.push_back(std::move(*report.error));
+  for (Diagnostic& warning : report.warnings) task.diagnostics.push_back(std::move(warning));
+}
+
+const ir::Mesh& mesh_at(const ir::Scene& scene, std::size_t index) {
+  return scene.table<ir::Mesh>()[Id<ir::Mesh>(static_cast<std::uint32_t>(index))];
+}
+
+using MeshPtr = std::shared_ptr<const TriangleMesh>;
+
+// The meshes of one file: what they have in common is made once.
+class FileMeshes {
+ public:
+  FileMeshes(const MeshData& data, const ir::Asset& asset, TaskReport& task)
+      : data_(data), asset_(asset), task_(task), parts_(data, asset.path) {
+    MeshReport report;
+    report_file(data, asset.path, asset.span, report);
+    take_report(report, task);
+  }
+
+  MeshPtr mesh_of(const ir::Mesh& source) {
+    const auto same_mesh = std::ranges::find_if(made_, [&](const Made& made) {
+      return same_whole(*made.source, source) && made.source->part == source.part;
+    });
+    if (same_mesh != made_.end()) return same_mesh->mesh;
+    MeshPtr mesh = source.part ? part_of(source) : whole_of(source);
+    made_.push_back({&source, mesh});
+    return mesh;
+  }
+
+ private:
+  struct Made {
+    const ir::Mesh* source;
+    MeshPtr mesh;
+  };
+
+  static bool same_whole(const ir::Mesh& a, const ir::Mesh& b) {
+    return a.unit == b.unit && a.normals == b.normals;
+  }
+
+  MeshPtr part_of(const ir::Mesh& source) {
+    const MeshPtr whole = whole_of(source);
+    MeshReport report;
+    auto mesh =
+        std::make_shared<TriangleMesh>(parts_.take(*whole, *source.part, asset_.span, report));
+    if (mesh->faces.empty() && !whole->faces.empty() && !report.error)
+      report.warnings.push_back(
+          without_faces(asset_.path + ": part `" + printable(*source.part) + "`", asset_.span));
+    take_report(report, task_);
+    return mesh;
+  }
+
+  MeshPtr whole_of(const ir::Mesh& source) {
+    const auto same = std::ranges::find_if(
+        wholes_, [&](const Made& made) { return same_whole(*made.source, source); });
+    if (same != wholes_.end()) return same->mesh;
+    MeshReport report;
+    auto mesh = std::make_shared<TriangleMesh>(
+        mesh_of_file(source, data_, asset_.path, asset_.span, report));
+    take_report(report, task_);
+    wholes_.push_back({&source, mesh});
+    return mesh;
+  }
+
+  const MeshData& data_;
+  const ir::Asset& asset_;
+  TaskReport& task_;
+  MeshPartTaker parts_;
+  std::vector<Made> wholes_;
+  std::vector<Made> made_;
+};
+
 void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::vector<Span>& spans,
                    FileSystem& files, PreparedScene& prepared, TaskReport& task) {
-  const auto mesh_at = [&](std::size_t i) -> const ir::Mesh& {
-    return scene.table<ir::Mesh>()[Id<ir::Mesh>(static_cast<std::uint32_t>(i))];
-  };
-  std::optional<MeshData> data;
-  if (group.asset.valid()) {
-    data = read_mesh(scene.assets[group.asset], files, task);
-    if (!data) return;
-  }
-  for (std::size_t n = 0; n < group.meshes.size(); ++n) {
-    const std::size_t index = group.meshes[n];
-    const ir::Mesh& source = mesh_at(index);
-    const auto same =
-        std::find_if(group.meshes.begin(), group.meshes.begin() + static_cast<std::ptrdiff_t>(n),
-                     [&](std::size_t other) { return same_result(mesh_at(other), source); });
-    if (data && same != group.meshes.begin() + static_cast<std::ptrdiff_t>(n)) {
-      prepared.meshes[index] = prepared.meshes[*same];
-      continue;
-    }
+  if (!group.asset.valid()) {
+    const std::size_t index = group.meshes.front();
     MeshReport report;
-    TriangleMesh mesh = data ? mesh_of_file(source, *data, scene.assets[group.asset].path,
-                                            scene.assets[group.asset].span, report)
-                             : mesh_of_lists(source, spans[index], report);
-    if (report.error) task.diagnostics.push_back(std::move(*report.error));
-    for (Diagnostic& warning : report.warnings) task.diagnostics.push_back(std::move(warning));
-    prepared.meshes[index] = std::make_shared<TriangleMesh>(std::move(mesh));
+    prepared.meshes[index] =
+        std::make_shared<TriangleMesh>(mesh_of_lists(mesh_at(scene, index), spans[index], report));
+    take_report(report, task);
+    return;
   }
+  const ir::Asset& asset = scene.assets[group.asset];
+  const std::optional<MeshData> data = read_mesh(asset, files, task);
+  if (!data) return;
+  FileMeshes meshes(*data, asset, task);
+  for (const std::size_t index : group.meshes)
+    prepared.meshes[index] = meshes.mesh_of(mesh_at(scene, index));
 }
 
 std::vector<ir::AssetId> images_of(const ir::Scene& scene) {

@@ -1,4 +1,5 @@
 // From what a mesh file or an inline mesh says to the triangles of the renderer.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -23,19 +24,36 @@ std::string count_of(std::uint64_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+constexpr std::size_t shown_dropped_faces = 3;
+
+// "a.obj:918: a face without area is left out: a vertex is repeated" for one; for more, their count
+// and the places of the first ones.
 void report_dropped(const MeshData& data, const std::string& path, Span where, MeshReport& report) {
   if (data.dropped_face_count == 0 || data.dropped_faces.empty()) return;
+  const auto place = [&](const DroppedFace& face) {
+    return face.line != 0 ? place_of(path, face.line)
+                          : path + ", face " + std::to_string(face.face + 1);
+  };
+  const auto reason = [](const DroppedFace& face) {
+    return face.reason == DropReason::repeated_vertex ? "a vertex is repeated"
+                                                      : "its corners lie on one line";
+  };
   const DroppedFace& first = data.dropped_faces.front();
-  const std::string at = first.line != 0 ? place_of(path, first.line)
-                                         : path + ", face " + std::to_string(first.face + 1);
-  const std::string reason = first.reason == DropReason::repeated_vertex
-                                 ? "a vertex is repeated"
-                                 : "its corners lie on one line";
-  report.warnings.push_back(Diagnostic(
-      DiagnosticKind::degenerate_faces, where,
-      at + ": " +
-          count_of(data.dropped_face_count, "face without area is", "faces without area are") +
-          " left out; of the first, " + reason));
+  const std::string message = data.dropped_face_count == 1
+                                  ? std::string("a face without area is left out: ")
+                                  : std::to_string(data.dropped_face_count) +
+                                        " faces without area are left out; of the first, ";
+  Diagnostic diagnostic(DiagnosticKind::degenerate_faces, where,
+                        place(first) + ": " + message + reason(first));
+  const std::size_t shown = std::min(data.dropped_faces.size(), shown_dropped_faces);
+  for (std::size_t i = 1; i < shown; ++i) {
+    const DroppedFace& face = data.dropped_faces[i];
+    diagnostic.notes.push_back({place(face) + ": " + reason(face), {}});
+  }
+  if (data.dropped_face_count > shown && shown > 1)
+    diagnostic.notes.push_back(
+        {"and " + std::to_string(data.dropped_face_count - shown) + " more", {}});
+  report.warnings.push_back(std::move(diagnostic));
 }
 
 struct PositionKey {
@@ -131,13 +149,6 @@ void choose_normals(const ir::Mesh& source, const MeshData& data, const std::str
   }
 }
 
-void warn_without_faces(const TriangleMesh& mesh, const std::string& name, Span where,
-                        MeshReport& report) {
-  if (!mesh.faces.empty() || report.error) return;
-  report.warnings.push_back(
-      Diagnostic(DiagnosticKind::mesh_without_faces, where, name + " has no face to be seen"));
-}
-
 bool has_area(const Point3& a, const Point3& b, const Point3& c) {
   const Vector3 u = b - a;
   const Vector3 v = c - a;
@@ -145,6 +156,10 @@ bool has_area(const Point3& a, const Point3& b, const Point3& c) {
 }
 
 }  // namespace
+
+Diagnostic without_faces(const std::string& name, Span where) {
+  return {DiagnosticKind::mesh_without_faces, where, name + " has no face to be seen"};
+}
 
 std::vector<Normal3> smooth_normals_of(const std::vector<Point3>& positions,
                                        const std::vector<Face>& faces) {
@@ -178,9 +193,12 @@ TriangleMesh mesh_of_file(const ir::Mesh& source, const MeshData& data, const st
   mesh.faces = data.triangles;
   if (!data.uvs.empty()) take_uvs_of_file(data, mesh);
   choose_normals(source, data, path, where, mesh, report);
-  report_dropped(data, path, where, report);
-  warn_without_faces(mesh, path, where, report);
   return mesh;
+}
+
+void report_file(const MeshData& data, const std::string& path, Span where, MeshReport& report) {
+  report_dropped(data, path, where, report);
+  if (data.triangles.empty()) report.warnings.push_back(without_faces(path, where));
 }
 
 TriangleMesh mesh_of_lists(const ir::Mesh& source, Span where, MeshReport& report) {
@@ -215,7 +233,7 @@ TriangleMesh mesh_of_lists(const ir::Mesh& source, Span where, MeshReport& repor
   for (const ir::Direction& n : source.normals.list) mesh.normals.push_back({n.x, n.y, n.z});
   if (source.normals.mode == ir::NormalMode::smooth)
     mesh.normals = smooth_normals_of(mesh.positions, mesh.faces);
-  warn_without_faces(mesh, "the mesh", where, report);
+  if (mesh.faces.empty()) report.warnings.push_back(without_faces("the mesh", where));
   return mesh;
 }
 

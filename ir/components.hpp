@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -67,6 +68,8 @@ template <class T, class F>
 void for_each_number(T, F&&) {}
 template <class Tag, class F>
 void for_each_number(Id<Tag>, F&&) {}
+template <class F>
+void for_each_number(const std::string&, F&&) {}
 
 template <class T, class F>
 void for_each_number(const Input<T>& input, F&& f);

@@ -114,6 +114,7 @@ class ContentHasher {
   void feed(Hasher& hasher, const Quantity<Tag>& value) {
     hasher.add(value.value);
   }
+  void feed(Hasher& hasher, const std::string& value) { hasher.add(std::string_view(value)); }
   void feed(Hasher& hasher, const Vec2& v) { hasher.add(v.x), hasher.add(v.y); }
   template <class T>
     requires(std::same_as<T, Vec3> || std::same_as<T, Direction> || std::same_as<T, Point3>)

@@ -42,6 +42,7 @@ SCENEC_TYPE_TEXT(MaterialId, "material");
 SCENEC_TYPE_TEXT(ProtoId, "proto");
 SCENEC_TYPE_TEXT(CameraId, "camera");
 SCENEC_TYPE_TEXT(AssetId, "file name");
+SCENEC_TYPE_TEXT(std::string, "string");
 SCENEC_TYPE_TEXT(Curve, "curve");
 SCENEC_TYPE_TEXT(Transform, "transform or list of transforms");
 SCENEC_TYPE_TEXT(MeshNormals, "one of .auto .file .smooth .flat, or a list of directions");

@@ -27,6 +27,10 @@ std::string value_text(double value) {
   return number_text(value);
 }
 
+std::string value_text(const std::string& value) {
+  return quoted_string(value);
+}
+
 std::string value_text(Angle value) {
   return value_text(value.value) + "rad";
 }

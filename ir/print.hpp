@@ -18,6 +18,7 @@ namespace scenec::ir {
 [[nodiscard]] std::string value_text(std::int64_t value);
 [[nodiscard]] std::string value_text(std::uint32_t value);
 [[nodiscard]] std::string value_text(double value);
+[[nodiscard]] std::string value_text(const std::string& value);  // a string literal
 [[nodiscard]] std::string value_text(Angle value);
 template <class Tag>
 [[nodiscard]] std::string value_text(Quantity<Tag> value) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <variant>
 #include <vector>
@@ -145,6 +146,7 @@ using Face = std::vector<std::uint32_t>;  // three or more 0-based vertex indice
 
 struct Mesh {
   AssetId file;
+  std::optional<std::string> part;
   Length unit{1};
   MeshNormals normals;
   std::vector<Point3> vertices;
@@ -158,6 +160,8 @@ struct Schema<Mesh> {
       "Triangles and polygons from an OBJ or PLY file, or listed inline.";
   static constexpr auto keys = std::tuple{
       key(&Mesh::file, "file", range::any, "OBJ or PLY file"),
+      key(&Mesh::part, "part", range::any,
+          "take the faces of this `usemtl` material or group of the file only"),
       key(&Mesh::unit, "unit", range::positive, "length of one unit of the file"),
       key(&Mesh::normals, "normals", range::any,
           "which shading normals to use, or one normal a vertex"),

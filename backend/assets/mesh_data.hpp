@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/text_scan.hpp"
+
 namespace scenec::backend {
 
 using TriangleIndices = std::array<std::uint32_t, 3>;
@@ -36,13 +38,6 @@ struct DroppedFace {
   DropReason reason = DropReason::zero_area;
 };
 
-// Statements of a text file that were read over.
-struct IgnoredStatements {
-  std::uint64_t count = 0;
-  std::uint64_t first_line = 0;
-  std::string first_keyword;
-};
-
 struct MeshData {
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<float, 3>> normals;  // as written: not normalised, may be zero
@@ -54,21 +49,18 @@ struct MeshData {
   // thrice.
   std::vector<TriangleIndices> normal_triangles;
   std::vector<TriangleIndices> uv_triangles;
-  std::vector<std::uint32_t> triangle_lines;  // source line of each triangle; empty: binary file
 
   std::vector<MeshPart> parts;  // cover all triangles, ascending
   std::vector<std::string> group_names;
   std::vector<std::string> material_names;
-  std::vector<std::string> material_libraries;  // as written (`mtllib`), without repeats
 
   std::uint64_t dropped_face_count = 0;
   std::vector<DroppedFace> dropped_faces;  // the first of them
-  IgnoredStatements ignored;
 };
 
 struct MeshLimits {
   std::uint64_t file_bytes = std::uint64_t{2} << 30;
-  std::size_t line_bytes = std::size_t{16} << 20;
+  std::size_t line_bytes = longest_asset_line;
   std::uint32_t polygon_vertices = 65'536;
   std::uint64_t triangles = 50'000'000;
   // Point-in-triangle tests spent on concave polygons, over the whole file.

@@ -9,9 +9,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "backend/assets/text_scan.hpp"
 #include "backend/assets/triangulate.hpp"
 #include "base/text.hpp"
+#include "base/text_scan.hpp"
 
 namespace scenec::backend {
 namespace {
@@ -47,14 +47,8 @@ class ObjReader {
       : limits_(limits), scanner_(bytes, limits.line_bytes, LineScanner::Continuation::backslash) {}
 
   Result<MeshData, AssetProblem> run() {
-    std::string_view line;
-    while (scanner_.next(line)) {
-      if (!statement(line)) return Failure{std::move(problem_)};
-    }
-    if (scanner_.too_long()) {
-      fail(fmt::format("line longer than {} bytes", limits_.line_bytes));
+    if (!for_each_line(scanner_, problem_, [&](std::string_view line) { return statement(line); }))
       return Failure{std::move(problem_)};
-    }
     if (!check_forward(vertices_, mesh_.positions.size()) ||
         !check_forward(uvs_, mesh_.uvs.size()) || !check_forward(normals_, mesh_.normals.size())) {
       return Failure{std::move(problem_)};
@@ -89,10 +83,11 @@ class ObjReader {
       if (second == 't' && two_letters) return cursor.move_to(p + 2), uv(cursor);
     }
     if (*p == 'f' && is_blank(second)) return cursor.move_to(p + 1), face(cursor);
-    return other(cursor);
+    other(cursor);
+    return true;
   }
 
-  bool other(WordCursor& cursor) {
+  void other(WordCursor& cursor) {
     const std::string_view keyword = cursor.word();
     if (keyword == "g" || keyword == "o") {
       group_ = group_table_.number_of(cursor.rest(), mesh_.group_names);
@@ -100,29 +95,6 @@ class ObjReader {
     } else if (keyword == "usemtl") {
       material_ = material_table_.number_of(cursor.rest(), mesh_.material_names);
       part_open_ = false;
-    } else if (keyword == "mtllib") {
-      add_libraries(cursor);
-    } else if (keyword != "s") {
-      if (mesh_.ignored.count++ == 0) {
-        mesh_.ignored.first_line = scanner_.line();
-        mesh_.ignored.first_keyword = printable(keyword, shown_text);
-      }
-    }
-    return true;
-  }
-
-  // `mtllib a.mtl b.mtl` names two files, `mtllib my scene.mtl` one.
-  void add_libraries(WordCursor cursor) {
-    const std::string_view all = cursor.rest();
-    std::vector<std::string_view> words;
-    bool each_is_mtl = true;
-    while (!cursor.at_end()) {
-      words.push_back(cursor.word());
-      each_is_mtl = each_is_mtl && words.back().ends_with(".mtl");
-    }
-    if (!each_is_mtl) words = {all};
-    for (const std::string_view name : words) {
-      if (!name.empty()) library_table_.number_of(name, mesh_.material_libraries);
     }
   }
 
@@ -308,7 +280,6 @@ class ObjReader {
   IndexSpace normals_{"normals"};
   NameTable group_table_;
   NameTable material_table_;
-  NameTable library_table_;
   std::uint32_t group_ = no_index;
   std::uint32_t material_ = no_index;
   bool part_open_ = false;

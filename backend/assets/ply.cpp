@@ -12,9 +12,9 @@
 
 #include "backend/assets/ply_body.hpp"
 #include "backend/assets/ply_header.hpp"
-#include "backend/assets/text_scan.hpp"
 #include "backend/assets/triangulate.hpp"
 #include "base/text.hpp"
+#include "base/text_scan.hpp"
 
 namespace scenec::backend {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <string_view>
 
-#include "backend/assets/asset_problem.hpp"
 #include "backend/assets/mesh_data.hpp"
+#include "base/asset_problem.hpp"
 #include "base/result.hpp"
 
 namespace scenec::backend {

@@ -13,7 +13,7 @@
 
 #include "backend/assets/mesh_data.hpp"
 #include "backend/assets/ply_header.hpp"
-#include "backend/assets/text_scan.hpp"
+#include "base/text_scan.hpp"
 
 namespace scenec::backend {
 

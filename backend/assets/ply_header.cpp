@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "backend/assets/text_scan.hpp"
 #include "base/text.hpp"
+#include "base/text_scan.hpp"
 
 namespace scenec::backend {
 namespace {
@@ -43,15 +43,12 @@ class HeaderReader {
     if (!scanner_.next(line) || trimmed(line) != "ply") {
       return Failure{AssetProblem{1, "not a PLY file; the first line must be `ply`"}};
     }
-    while (!done_) {
-      if (!scanner_.next(line)) {
-        fail("`end_header` is missing");
-        return Failure{std::move(problem_)};
-      }
-      WordCursor cursor(line);
-      const bool ended = cursor.peek().empty();
-      if (!ended && !statement(cursor)) return Failure{std::move(problem_)};
-    }
+    const bool ended = for_each_line(scanner_, problem_, [&](std::string_view text) {
+      WordCursor cursor(text);
+      return cursor.peek().empty() || (statement(cursor) && !done_);
+    });
+    if (ended) fail("`end_header` is missing");
+    if (!done_) return Failure{std::move(problem_)};
     header_.body_offset = bytes_.size() - scanner_.rest().size();
     header_.body_line = scanner_.line() + 1;
     if (!check()) return Failure{std::move(problem_)};

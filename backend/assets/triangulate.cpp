@@ -72,8 +72,8 @@ class Triangulator {
       const std::size_t size = faces_.sizes[face];
       const std::size_t before = mesh_.triangles.size();
       if (size == 3) {
-        emit(first_corner, 0, 1, 2, face);
-      } else if (!add_polygon(first_corner, size, face)) {
+        emit(first_corner, 0, 1, 2);
+      } else if (!add_polygon(first_corner, size)) {
         return AssetProblem{
             line_of(face), fmt::format("the concave polygons up to this one, with {} corners, cost "
                                        "more than {} tests to cut into triangles; split it",
@@ -104,7 +104,6 @@ class Triangulator {
     mesh_.triangles.reserve(count);
     if (!faces_.corner_normals.empty()) mesh_.normal_triangles.reserve(count);
     if (!faces_.corner_uvs.empty()) mesh_.uv_triangles.reserve(count);
-    if (!faces_.lines.empty()) mesh_.triangle_lines.reserve(count);
     if (faces_.parts.empty()) mesh_.parts.push_back({});
     return std::nullopt;
   }
@@ -125,7 +124,7 @@ class Triangulator {
   }
 
   // Adds the triangle of corners first+i, first+j, first+k unless it has no area.
-  void emit(std::size_t first, std::size_t i, std::size_t j, std::size_t k, std::size_t face) {
+  void emit(std::size_t first, std::size_t i, std::size_t j, std::size_t k) {
     if (!has_area(position(first + i), position(first + j), position(first + k))) return;
     const auto pick = [&](const std::vector<std::uint32_t>& table) {
       return TriangleIndices{table[first + i], table[first + j], table[first + k]};
@@ -134,7 +133,6 @@ class Triangulator {
     if (!faces_.corner_normals.empty())
       mesh_.normal_triangles.push_back(pick(faces_.corner_normals));
     if (!faces_.corner_uvs.empty()) mesh_.uv_triangles.push_back(pick(faces_.corner_uvs));
-    if (!faces_.lines.empty()) mesh_.triangle_lines.push_back(faces_.lines[face]);
   }
 
   void drop(std::size_t first, std::size_t size, std::size_t face) {
@@ -169,14 +167,14 @@ class Triangulator {
   }
 
   // False: the ear budget is used up.
-  bool add_polygon(std::size_t first, std::size_t size, std::size_t face) {
+  bool add_polygon(std::size_t first, std::size_t size) {
     const Vec3 normal = newell_normal(first, size);
     if (fan_is_right(first, size, normal)) {
-      for (std::size_t i = 1; i + 1 < size; ++i) emit(first, 0, i, i + 1, face);
+      for (std::size_t i = 1; i + 1 < size; ++i) emit(first, 0, i, i + 1);
       return true;
     }
     project(first, size, normal);
-    return clip_ears(first, size, face);
+    return clip_ears(first, size);
   }
 
   // Fills plane_ with the corners seen along the largest axis of the normal, counter-clockwise.
@@ -210,7 +208,7 @@ class Triangulator {
     return true;
   }
 
-  bool clip_ears(std::size_t first, std::size_t size, std::size_t face) {
+  bool clip_ears(std::size_t first, std::size_t size) {
     ring_.resize(size);
     std::iota(ring_.begin(), ring_.end(), std::uint32_t{0});
     std::size_t at = 0;
@@ -225,12 +223,12 @@ class Triangulator {
         at = (at + 1) % count;
         continue;
       }
-      emit(first, ring_[(at + count - 1) % count], ring_[at], ring_[(at + 1) % count], face);
+      emit(first, ring_[(at + count - 1) % count], ring_[at], ring_[(at + 1) % count]);
       ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(at));
       at = at == 0 ? ring_.size() - 1 : at - 1;
       refused = 0;
     }
-    emit(first, ring_[0], ring_[1], ring_[2], face);
+    emit(first, ring_[0], ring_[1], ring_[2]);
     return true;
   }
 

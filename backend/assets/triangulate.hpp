@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "backend/assets/asset_problem.hpp"
 #include "backend/assets/mesh_data.hpp"
+#include "base/asset_problem.hpp"
 
 namespace scenec::backend {
 
@@ -37,7 +37,7 @@ struct FaceList {
 // tiny meshes do not vanish by underflow); collinear corners whose rounded cross product is not
 // zero stay in. Proof: triangulate_test.
 //
-// Fills triangles, index tables, lines, parts and dropped faces of `mesh` from `faces`; positions,
+// Fills triangles, index tables, parts and dropped faces of `mesh` from `faces`; positions,
 // normals, uvs and names are already there.
 [[nodiscard]] std::optional<AssetProblem> triangulate(const FaceList& faces,
                                                       const MeshLimits& limits, MeshData& mesh);

@@ -23,9 +23,11 @@ class CameraSampler {
   // Whether `lens` numbers are read.
   [[nodiscard]] bool has_lens() const { return lens_radius_ > 0; }
   // The ray's direction is unit.
+  // It begins behind the rounding of its origin: a wall in which the camera stands hides nothing.
   [[nodiscard]] Ray ray(double film_x, double film_y, Sample2 lens) const;
 
  private:
+  [[nodiscard]] Ray ray_at(double film_x, double film_y, Sample2 lens) const;
   enum class Kind : std::uint8_t { perspective, orthographic, panorama };
   void set_frame(const ir::CameraFrame& frame);
   void set_focal(const std::optional<Angle>& fov, const std::optional<Length>& focal);

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "backend/assets/asset_problem.hpp"
 #include "backend/image/image.hpp"
 #include "backend/image/write_image.hpp"
+#include "base/asset_problem.hpp"
 #include "base/result.hpp"
 
 namespace scenec::backend {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "backend/assets/asset_problem.hpp"
 #include "backend/image/image.hpp"
+#include "base/asset_problem.hpp"
 
 namespace scenec::backend {
 

@@ -6,8 +6,8 @@
 
 #include <string_view>
 
-#include "backend/assets/asset_problem.hpp"
 #include "backend/image/image.hpp"
+#include "base/asset_problem.hpp"
 #include "base/result.hpp"
 
 namespace scenec::backend {

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "backend/assets/asset_problem.hpp"
+#include "base/asset_problem.hpp"
 #include "base/result.hpp"
 
 namespace scenec::backend {

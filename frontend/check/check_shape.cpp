@@ -88,6 +88,9 @@ void check_shape(Session& session, const ir::Mesh& mesh, const BlockChecker& che
               ? std::string("a mesh from a file takes its texture coordinates from there")
               : fmt::format("there are {} texture coordinates for {} vertices", uvs, vertices));
   }
+  if (mesh.part && !from_file)
+    wrong(place_of<ir::Mesh>(checker, &ir::Mesh::part, head),
+          "an inline mesh has no parts; list the faces that are wanted");
   const Span faces = place_of<ir::Mesh>(checker, &ir::Mesh::faces, head);
   if (!from_file && mesh.faces.empty()) wrong(faces, "the mesh has no faces");
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {

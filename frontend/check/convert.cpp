@@ -163,6 +163,13 @@ bool convert(const KeyContext& key, const Value& value, ir::AssetId& out) {
   return out.valid();
 }
 
+bool convert(const KeyContext& key, const Value& value, std::string& out) {
+  const Value text = accepted(key.session, value, Accept::string, key.need);
+  if (text.poisoned() || !text.known) return false;
+  out = text.text();
+  return true;
+}
+
 bool convert(const KeyContext& key, const Value& value, ir::Curve& out) {
   if (value.poisoned()) return false;
   if (!value.is(Type::curve)) {

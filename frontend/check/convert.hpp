@@ -38,6 +38,7 @@ bool convert(const KeyContext& key, const Value& value, double& out);
 bool convert(const KeyContext& key, const Value& value, std::int64_t& out);
 bool convert(const KeyContext& key, const Value& value, std::uint32_t& out);
 bool convert(const KeyContext& key, const Value& value, bool& out);
+bool convert(const KeyContext& key, const Value& value, std::string& out);
 bool convert(const KeyContext& key, const Value& value, ir::Vec2& out);
 bool convert(const KeyContext& key, const Value& value, ir::Direction& out);
 bool convert(const KeyContext& key, const Value& value, ir::Point3& out);

@@ -199,6 +199,10 @@ std::string Materials::add_obj_material(const ObjMaterial& material, bool phong,
     extra.item.add("opacity", alpha.put(".alpha"));
     extra.item.add("cutout", "0.5");
   }
+  if (material.glows()) {
+    extra.item.add("emission", color_of_values(material.emission, origin));
+    extra.item.add("two_sided", "true");
+  }
   extras_.push_back(extra);
   return extra.name;
 }

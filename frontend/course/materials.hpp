@@ -10,6 +10,7 @@
 
 #include "frontend/course/assets.hpp"
 #include "frontend/course/context.hpp"
+#include "frontend/course/obj_materials.hpp"
 #include "frontend/course/reader.hpp"
 #include "frontend/course/writer.hpp"
 

@@ -146,14 +146,20 @@ void Objects::write_tiny_obj(const Entry& entry, const Target& target) {
 void Objects::write_obj_file(const Entry& file, bool phong, const Target& target) {
   const std::string path = find_asset(context_, file.name, file.name_span);
   if (!phong) context_.vocabulary = Vocabulary::path;
-  Item item;
-  item.head.put("mesh", file.word_span);
-  item.add("file", path_text(context_, path, file.name_span), file.span);
-  item.add("normals", ".auto");
-  if (const auto material = read_obj_material(context_, path, file.name_span)) {
-    variant_ = materials_.add_obj_material(*material, phong, file.span);
+  // One item for each material; they share the file.
+  const std::vector<ObjPart> parts = read_obj_parts(context_, path, file.name_span);
+  for (std::size_t i = 0; i < std::max<std::size_t>(parts.size(), 1); ++i) {
+    Item item;
+    item.head.put("mesh", file.word_span);
+    item.add("file", path_text(context_, path, file.name_span), file.span);
+    if (parts.size() > 1) item.add("part", Text(quoted_string(parts[i].name), file.name_span));
+    item.add("normals", ".auto");
+    if (!parts.empty() && parts[i].material && parts[i].material->glows())
+      context_.vocabulary = Vocabulary::path;
+    if (!parts.empty() && parts[i].material)
+      variant_ = materials_.add_obj_material(*parts[i].material, phong, file.span);
+    finish(item, file, {}, target, NeedsMaterial::no);
   }
-  finish(item, file, {}, target, NeedsMaterial::no);
 }
 
 void Objects::write_rectangle(const Entry& entry, const Target& target) {

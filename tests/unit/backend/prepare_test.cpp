@@ -65,6 +65,63 @@ TEST(prepare, smooth_normals_of_a_cube_point_along_its_diagonals) {
   }
 }
 
+constexpr const char* parts_obj =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.1 2 0.3\nvt 0 0\nvt 1 0\nvt 1 1\n"
+    "f 1 2 3\nusemtl wall\ng left\nf 1/1 3/2 4/3\nusemtl roof\nf 4 3 5\nusemtl wall\nf 3 2 5\n";
+
+TEST(prepare, a_part_takes_the_faces_of_its_name) {
+  MemoryFileSystem files;
+  files.put("house.obj", parts_obj);
+  SceneKit kit;
+  kit.pinhole({0, 0, 3}, {0, 0, 0}, 40);
+  for (const char* const part : {"wall", "roof", "left", "", "wall"}) {
+    ir::Mesh mesh;
+    mesh.file = kit.asset("house.obj");
+    mesh.part = part;
+    mesh.normals.mode = ir::NormalMode::smooth;
+    kit.place(mesh, kit.matt(0.5));
+  }
+  const Prepared p(kit, files);
+  EXPECT_EQ(p.text(), "");
+  ASSERT_TRUE(p.prepared);
+  const auto& meshes = p.prepared->meshes;
+  const TriangleMesh& wall = *meshes[0];
+  EXPECT_EQ(wall.faces, (std::vector<Face>{{0, 1, 2}, {1, 3, 4}}));
+  EXPECT_EQ(wall.positions[4], (Point3{0.1, 2, 0.3}));
+  EXPECT_EQ(wall.uv_faces, (std::vector<Face>{{0, 1, 2}, {3, 3, 3}}));
+  EXPECT_EQ(meshes[1]->faces.size(), 1U);
+  EXPECT_EQ(meshes[2]->faces.size(), 3U);  // the group goes on
+  EXPECT_EQ(meshes[3]->faces.size(), 1U);
+  // Normals are those of the whole file: no crease where parts meet.
+  const TriangleMesh& roof = *meshes[1];
+  EXPECT_EQ(wall.positions[1], roof.positions[1]);
+  EXPECT_EQ(wall.normals[1], roof.normals[1]);
+}
+
+TEST(prepare, equal_meshes_are_made_once_and_unknown_parts_are_errors) {
+  MemoryFileSystem files;
+  files.put("house.obj", parts_obj);
+  const auto with_parts = [&](std::initializer_list<const char*> parts) {
+    SceneKit kit;
+    kit.pinhole({0, 0, 3}, {0, 0, 0}, 40);
+    for (const char* const part : parts) {
+      ir::Mesh mesh;
+      mesh.file = kit.asset("house.obj");
+      mesh.part = part;
+      mesh.unit = {1.0 + static_cast<double>(part[0] == 'x')};
+      kit.place(mesh, kit.matt(0.5));
+    }
+    return Prepared(kit, files);
+  };
+  EXPECT_EQ(with_parts({"roof", "wall"}).prepared->meshes.size(), 2U);
+  const Prepared p = with_parts({"wal", "roof"});
+  EXPECT_FALSE(p.prepared);
+  ASSERT_EQ(p.sink.sorted().size(), 1U);
+  EXPECT_EQ(p.text(), "mesh-part-unknown: house.obj has no part `wal`\n");
+  EXPECT_EQ(p.sink.sorted()[0].hints[0], "did you mean `wall`?");
+  EXPECT_EQ(p.sink.sorted()[0].hints[1], "parts: `wall`, `roof`, `left`");
+}
+
 TEST(prepare, problems_name_the_file_and_its_line) {
   MemoryFileSystem files;
   files.put("bad.obj", "v 0 0 0\nv 1 0 zero\n");
@@ -82,7 +139,7 @@ TEST(prepare, problems_name_the_file_and_its_line) {
             "mesh-lacks-normals: `normals = .file`, but plain.obj has no normals\n");
   const Prepared flat = with_mesh(files, "flat.obj");
   EXPECT_TRUE(flat.prepared);
-  EXPECT_EQ(flat.text().rfind("degenerate-faces: flat.obj:7: 1 face without area is left out", 0),
+  EXPECT_EQ(flat.text().rfind("degenerate-faces: flat.obj:7: a face without area is left out: its corners lie on one line", 0),
             0U)
       << flat.text();
   EXPECT_NE(with_mesh(files, "empty.obj")

@@ -183,10 +183,37 @@ TEST(CourseObjects, ShapesOfStudents) {
   EXPECT_FALSE(moving.warnings.empty());
 }
 
-TEST(CourseObjects, ObjFilesTakeTheirMaterialFromTheMtl) {
+TEST(CourseObjects, EachMaterialOfAnObjFileIsAPartOfItsMesh) {
   MemoryFileSystem files;
-  files.put("a.obj", "mtllib a.mtl\nv 0 0 0\nusemtl few\nf 1 1 1\nusemtl many\nf 1 1 1\nf 1 1 1\n");
-  files.put("a.mtl", "newmtl few\nKd 1 0 0\nnewmtl many\nKd 0 0 1\nmap_Kd c.png\n");
+  files.put("m/a.obj",
+            "mtllib one.mtl two.mtl\nmtllib my lib.txt\nv 0 0 0\nf 1 1 1\nusemtl few\nf 1 1 1\n"
+            "usemtl none\nusemtl many \nf 1 1 1\nusemtl few\nf 1 1 1\nusemtl lost\nf 1 1 1\n");
+  files.put("m/one.mtl", "newmtl few\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 20\n");
+  files.put("m/two.mtl", "newmtl few\nKd 0 1 0\n");
+  files.put("m/my lib.txt", "newmtl many\nKd 0 0 1\nKe 2 2 2\nmap_Kd c.png\n");
+  files.put("m/c.png", "");
+  const Translated scene = translate_course(
+      course_camera +
+          "Materials { numMaterials 1 Material { diffuseColor 1 1 0 } } Group { numObjects 1 "
+          "MaterialIndex 0 Group { ObjMaterialType 0 ObjFile m/a.obj } }",
+      std::move(files));
+  EXPECT_THAT(scene.errors, IsEmpty());
+  EXPECT_THAT(scene.warnings, testing::ElementsAre("L0407"));
+  for (const char* const piece :
+       {"material obj0: phong { diffuse = rgb(1, 0, 0); specular = gray(0.5); shininess = 20; }",
+        "diffuse = image(\"../m/c.png\");", "emission = gray(2);", "method = .path;",
+        "part = \"\";", "part = \"few\"; normals = .auto; material = obj0;",
+        "part = \"many\"; normals = .auto; material = obj1;",
+        "part = \"lost\"; normals = .auto; material = m0;"}) {
+    EXPECT_TRUE(scene.has(piece)) << piece << " in\n" << scene.text;
+  }
+  EXPECT_FALSE(scene.has("part = \"none\""));
+}
+
+TEST(CourseObjects, AnObjFileWithOneMaterialIsOneMesh) {
+  MemoryFileSystem files;
+  files.put("a.obj", "mtllib a.mtl\nv 0 0 0\nusemtl m\nf 1 1 1\nusemtl m\nf 1 1 1\n");
+  files.put("a.mtl", "newmtl m\nKd 1 0 0\nmap_Kd c.png\n");
   files.put("c.png", "");
   const Translated scene =
       translate_course(course_camera +
@@ -194,9 +221,21 @@ TEST(CourseObjects, ObjFilesTakeTheirMaterialFromTheMtl) {
                            "Group { ObjMaterialType 1 ObjFile a.obj } }",
                        std::move(files));
   EXPECT_THAT(scene.errors, IsEmpty());
-  EXPECT_THAT(scene.warnings, testing::ElementsAre("L0406"));
+  EXPECT_THAT(scene.warnings, IsEmpty());
   EXPECT_TRUE(scene.has("color = image(\"../c.png\");")) << scene.text;
-  EXPECT_TRUE(scene.has("normals = .auto; material = obj0;")) << scene.text;
+  EXPECT_TRUE(scene.has("file = \"../a.obj\"; normals = .auto; material = obj0;")) << scene.text;
+}
+
+TEST(CourseObjects, ABrokenLibraryIsLocated) {
+  MemoryFileSystem files;
+  files.put("a.obj", "mtllib a.mtl\nv 0 0 0\nusemtl m\nf 1 1 1\n");
+  files.put("a.mtl", "newmtl m\nKd 1 red 0\n");
+  const Translated scene = translate_course(
+      course_camera + "Materials { numMaterials 0 } Group { ObjMaterialType 1 ObjFile a.obj }",
+      std::move(files));
+  EXPECT_THAT(scene.errors, testing::ElementsAre(testing::HasSubstr(
+                                "E0501 a.mtl:2: value of `Kd` is `red`; needs a number")));
+  EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
 TEST(CourseWarnings, OneAFileAndWord) {

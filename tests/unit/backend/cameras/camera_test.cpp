@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/elementary.hpp"
+#include "backend/geometry/plane.hpp"
 
 namespace scenec::backend {
 namespace {
@@ -34,6 +35,23 @@ TEST(camera, corner_ray_of_a_pinhole_has_the_closed_form) {  // C01
     const double t = std::tan(fov * pi / 360);
     const Vector3 d{2 * t, t, -1};
     expect_near(camera.ray(200, 0, {}).direction, d / length(d), 1e-12);
+  }
+}
+
+TEST(camera, a_wall_in_which_the_camera_stands_hides_nothing) {
+  ir::ThinLens lens;
+  lens.fov = Angle{0.6};
+  lens.aperture = Length{2};
+  lens.focus.distance = Length{250};
+  lens.eye = {50, 50, 300};
+  lens.direction = ir::Direction{0, 0, -1};
+  const CameraSampler camera({lens}, {72, 72});
+  const Plane wall{Normal3{0, 0, -1}, -300};
+  for (int i = 0; i < 72; ++i) {
+    const Ray ray = camera.ray(i, 71 - i, {(i + 0.5) / 72, 0.3});
+    ShapeHit hit;
+    EXPECT_FALSE(intersect(wall, ray, hit)) << i;
+    EXPECT_LT(ray.t_min, 1e-12);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <turbojpeg.h>
 
 #include "backend/image/write_image.hpp"
-#include "tests/unit/backend/assets/hostile.hpp"
+#include "tests/support/hostile.hpp"
 #include "tests/unit/backend/image/png_bytes.hpp"
 
 namespace scenec::backend {
@@ -249,19 +249,19 @@ TEST(ReadImage, RefusesEveryPrefix) {
       {"hdr runs", hdr_runs}, {"pgm", "P5 2 2 255 abcd"}, {"ppm", "P3 1 1 255 1 2 3"}};
   for (const auto& [name, bytes] : files) {
     EXPECT_TRUE(readable(bytes)) << name;
-    EXPECT_EQ(read_every_prefix(bytes, readable), 0u) << name;
+    EXPECT_EQ(scenec::test::read_every_prefix(bytes, readable), 0u) << name;
   }
   // What follows a JPEG's last coded block (its end mark) carries no pixels.
-  EXPECT_LE(read_every_prefix(small_jpeg(16, 16), readable), 2u);
+  EXPECT_LE(scenec::test::read_every_prefix(small_jpeg(16, 16), readable), 2u);
 }
 
 TEST(ReadImage, SurvivesRandomDamage) {
   std::uint32_t seed = 100;
   for (const std::string& bytes : {small_png(), small_bmp(), small_jpeg(16, 16), tga_raw, tga_runs,
                                    hdr, hdr_runs, "P6 2 2 255 abcdefghijkl"s}) {
-    read_with_random_damage(bytes, ++seed, 4'000, readable);
+    scenec::test::read_with_random_damage(bytes, ++seed, 4'000, readable);
   }
-  read_with_random_damage(small_exr(), ++seed, 4'000, readable);
+  scenec::test::read_with_random_damage(small_exr(), ++seed, 4'000, readable);
   // Past the checksums: damage inside a PNG whose checksums are right.
   for (int at = 0; at < 13; ++at) {
     for (int value = 0; value < 256; value += 5) {

@@ -1,14 +1,14 @@
-#include "backend/assets/mtl.hpp"
+#include "frontend/course/mtl.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <array>
 #include <utility>
 
-#include "backend/assets/text_scan.hpp"
 #include "base/text.hpp"
+#include "base/text_scan.hpp"
 
-namespace scenec::backend {
+namespace scenec::frontend::course {
 namespace {
 
 constexpr std::size_t shown_text = 60;
@@ -46,23 +46,20 @@ std::string_view map_file(WordCursor cursor) {
 
 class MtlReader {
  public:
-  MtlReader(std::string_view bytes, const MeshLimits& limits)
-      : limits_(limits), scanner_(bytes, limits.line_bytes, LineScanner::Continuation::backslash) {}
+  explicit MtlReader(std::string_view bytes)
+      : scanner_(bytes, longest_asset_line, LineScanner::Continuation::backslash) {}
 
-  Result<MtlLibrary, AssetProblem> run() {
-    std::string_view line;
-    while (scanner_.next(line)) {
+  Result<std::vector<MtlMaterial>, AssetProblem> run() {
+    const bool read = for_each_line(scanner_, problem_, [&](std::string_view line) {
       WordCursor cursor(line);
       // Widely copied libraries hold two statements on one line (`Tr 0  illum 2`).
       while (!cursor.at_end()) {
-        if (!statement(cursor)) return Failure{std::move(problem_)};
+        if (!statement(cursor)) return false;
       }
-    }
-    if (scanner_.too_long()) {
-      fail(fmt::format("line longer than {} bytes", limits_.line_bytes));
-      return Failure{std::move(problem_)};
-    }
-    return std::move(library_);
+      return true;
+    });
+    if (!read) return Failure{std::move(problem_)};
+    return std::move(materials_);
   }
 
  private:
@@ -74,49 +71,40 @@ class MtlReader {
   bool statement(WordCursor& cursor) {
     const std::string_view keyword = cursor.word();
     if (keyword == "newmtl") {
-      library_.materials.push_back({});
-      library_.materials.back().name = cursor.rest();
-      library_.materials.back().line = scanner_.line();
+      materials_.push_back({});
+      materials_.back().name = cursor.rest();
       cursor.move_to(cursor.end());
-      return !library_.materials.back().name.empty() || fail("`newmtl` without a name");
+      return !materials_.back().name.empty() || fail("`newmtl` without a name");
     }
-    if (library_.materials.empty()) {
+    if (materials_.empty()) {
       return fail(fmt::format("`{}` before the first `newmtl`", printable(keyword, shown_text)));
     }
-    return value(keyword, cursor, library_.materials.back());
+    return value(keyword, cursor, materials_.back());
   }
 
   bool value(std::string_view keyword, WordCursor& cursor, MtlMaterial& material) {
     if (keyword == "Kd") return colour(keyword, cursor, material.diffuse);
     if (keyword == "Ks") return colour(keyword, cursor, material.specular);
     if (keyword == "Ke") return colour(keyword, cursor, material.emission);
-    if (keyword == "Ka") return colour(keyword, cursor, material.ambient);
     if (keyword == "Ns") return number(keyword, cursor, material.shininess);
-    if (keyword == "Ni") return number(keyword, cursor, material.ior);
-    if (keyword == "d") {
-      if (cursor.peek() == "-halo") static_cast<void>(cursor.word());
-      return number(keyword, cursor, material.opacity);
-    }
-    if (keyword == "Tr") {
-      if (!number(keyword, cursor, material.opacity)) return false;
-      material.opacity = 1 - *material.opacity;
-      return true;
-    }
-    if (keyword == "illum") return illumination(cursor, material);
     if (keyword == "map_Kd") return map(keyword, cursor, material.diffuse_map);
-    if (keyword == "map_d") return map(keyword, cursor, material.opacity_map);
-    if (keyword == "map_bump" || keyword == "map_Bump" || keyword == "bump") {
-      return map(keyword, cursor, material.bump_map);
-    }
-    return ignore(keyword, cursor);
+    if (takes_numbers(keyword)) return skip_numbers(cursor);
+    return skip_rest(cursor);
   }
 
-  bool ignore(std::string_view keyword, WordCursor& cursor) {
-    cursor.move_to(cursor.end());
-    if (library_.ignored.count++ == 0) {
-      library_.ignored.first_line = scanner_.line();
-      library_.ignored.first_keyword = printable(keyword, shown_text);
+  // Whatever else it says does not matter here, but another statement may follow on the line.
+  static bool takes_numbers(std::string_view keyword) {
+    return keyword == "Ka" || keyword == "Ni" || keyword == "Tr" || keyword == "illum";
+  }
+  static bool skip_numbers(WordCursor& cursor) {
+    double ignored = 0;
+    while (cursor.number(ignored) == NumberProblem::none) {
     }
+    return true;
+  }
+
+  static bool skip_rest(WordCursor& cursor) {
+    cursor.move_to(cursor.end());
     return true;
   }
 
@@ -144,7 +132,7 @@ class MtlReader {
   // Three numbers, or one for all three. `spectral` and `xyz` forms are read over.
   bool colour(std::string_view keyword, WordCursor& cursor,
               std::optional<std::array<double, 3>>& target) {
-    if (cursor.peek() == "spectral" || cursor.peek() == "xyz") return ignore(keyword, cursor);
+    if (cursor.peek() == "spectral" || cursor.peek() == "xyz") return skip_rest(cursor);
     std::array<double, 3> rgb{};
     if (!read(keyword, cursor, rgb[0])) return false;
     rgb[1] = rgb[2] = rgb[0];
@@ -155,36 +143,21 @@ class MtlReader {
     return finish(keyword, cursor);
   }
 
-  bool illumination(WordCursor& cursor, MtlMaterial& material) {
-    double number = 0;
-    if (!read("illum", cursor, number)) return false;
-    if (!(number >= 0 && number <= 10) || std::trunc(number) != number) {
-      return fail(fmt::format("`illum` is {}; needs a whole number from 0 to 10", number));
-    }
-    material.illumination = static_cast<int>(number);
-    return finish("illum", cursor);
-  }
-
   bool map(std::string_view keyword, WordCursor& cursor, std::string& target) {
     target = map_file(cursor);
     cursor.move_to(cursor.end());
     return !target.empty() || fail(fmt::format("`{}` without a file name", keyword));
   }
 
-  const MeshLimits& limits_;
   LineScanner scanner_;
-  MtlLibrary library_;
+  std::vector<MtlMaterial> materials_;
   AssetProblem problem_;
 };
 
 }  // namespace
 
-Result<MtlLibrary, AssetProblem> read_mtl(std::string_view bytes, const MeshLimits& limits) {
-  if (bytes.size() > limits.file_bytes) {
-    return Failure{AssetProblem{0, fmt::format("file has {} bytes; at most {} are allowed",
-                                               bytes.size(), limits.file_bytes)}};
-  }
-  return MtlReader(bytes, limits).run();
+Result<std::vector<MtlMaterial>, AssetProblem> read_mtl(std::string_view bytes) {
+  return MtlReader(bytes).run();
 }
 
-}  // namespace scenec::backend
+}  // namespace scenec::frontend::course

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace scenec::backend {
+namespace scenec::test {
 
 // An exact-size heap copy, so that the address sanitizer sees a read behind the end.
 class ExactCopy {
@@ -67,4 +67,4 @@ void read_with_random_damage(std::string_view bytes, std::uint32_t seed, int rou
   }
 }
 
-}  // namespace scenec::backend
+}  // namespace scenec::test

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <string>
 
-namespace scenec::backend {
+namespace scenec {
 
 struct AssetProblem {
   std::uint64_t line = 0;  // 1-based line of the asset; 0: the file as a whole, or a binary file
   std::string message;
 };
 
-}  // namespace scenec::backend
+}  // namespace scenec

@@ -1,4 +1,4 @@
-#include "backend/assets/text_scan.hpp"
+#include "base/text_scan.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 
-namespace scenec::backend {
+namespace scenec {
 namespace {
 
 constexpr std::size_t shown_word = 40;
@@ -41,6 +41,10 @@ LineScanner::LineScanner(std::string_view bytes, std::size_t longest_line,
                          Continuation continuation)
     : rest_(bytes), longest_line_(longest_line), continuation_(continuation) {
   if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
+}
+
+AssetProblem LineScanner::too_long_problem() const {
+  return {line_, fmt::format("line longer than {} bytes", longest_line_)};
 }
 
 bool LineScanner::next_physical(std::string_view& line) {
@@ -133,4 +137,4 @@ std::string describe(NumberProblem problem, std::string_view word) {
   return fmt::format("is `{}`; needs a number", printable(word, shown_word));
 }
 
-}  // namespace scenec::backend
+}  // namespace scenec

@@ -8,12 +8,17 @@
 #include <string>
 #include <string_view>
 
-namespace scenec::backend {
+#include "base/asset_problem.hpp"
+
+namespace scenec {
 
 [[nodiscard]] constexpr bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 [[nodiscard]] std::string_view trimmed(std::string_view text);
+
+// The longest line of an asset that is read.
+inline constexpr std::size_t longest_asset_line = std::size_t{16} << 20;
 
 // Line ends are LF or CR LF, the last one may be missing; a UTF-8 byte order mark is read over.
 class LineScanner {
@@ -29,6 +34,7 @@ class LineScanner {
   // Of the line returned last: where it began.
   [[nodiscard]] std::uint64_t line() const { return line_; }
   [[nodiscard]] bool too_long() const { return too_long_; }
+  [[nodiscard]] AssetProblem too_long_problem() const;
   // Bytes not yet handed out.
   [[nodiscard]] std::string_view rest() const { return rest_; }
 
@@ -44,6 +50,18 @@ class LineScanner {
   bool too_long_ = false;
   std::string joined_;
 };
+
+// Hands out line after line as long as `take(line)` answers true. True: all lines were handed out.
+// A line that is too long ends it and is told in `problem`.
+template <class Take>
+bool for_each_line(LineScanner& scanner, AssetProblem& problem, Take&& take) {
+  std::string_view line;
+  while (scanner.next(line)) {
+    if (!take(line)) return false;
+  }
+  if (scanner.too_long()) problem = scanner.too_long_problem();
+  return !scanner.too_long();
+}
 
 enum class NumberProblem : std::uint8_t { none, missing, unparsable, not_finite };
 
@@ -82,4 +100,4 @@ class WordCursor {
 // "is missing", "`1.2.3` is not a number", "`nan` is not finite": the end of a sentence.
 [[nodiscard]] std::string describe(NumberProblem problem, std::string_view word);
 
-}  // namespace scenec::backend
+}  // namespace scenec
