@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/content_cache.hpp"
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
 #include "base/parallel.hpp"
@@ -34,9 +35,10 @@ using PreparedPtr = std::unique_ptr<PreparedScene, Destroy>;
 using RenderScenePtr = std::unique_ptr<RenderScene, Destroy>;
 
 // Reads and checks every asset the scene names and examines the geometry (degenerate faces, lights
-// inside geometry); reports with origins from the IR. Null when there was an error.
+// inside geometry); reports with origins from the IR. Null when there was an error. A mesh file that
+// `cache` has by the hash the front end took of it is not decoded again; null: no cache.
 [[nodiscard]] PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
-                                  DiagnosticSink& sink);
+                                  DiagnosticSink& sink, ContentCache* cache = nullptr);
 
 [[nodiscard]] RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool);
 

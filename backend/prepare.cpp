@@ -4,6 +4,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "backend/assets/mesh_codec.hpp"
 #include "backend/assets/obj.hpp"
 #include "backend/assets/ply.hpp"
 #include "backend/backend.hpp"
@@ -38,7 +39,21 @@ std::string located(const std::string& path, const AssetProblem& problem) {
          problem.message;
 }
 
-std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, TaskReport& report) {
+// Smaller files are decoded as fast as they are found in the cache.
+constexpr std::uint64_t smallest_cached_file = 64 * 1024;
+
+// What is in the cache stands for the bytes whose hash it is kept under. Scenes made without the
+// front end have no hash.
+std::optional<MeshData> find_cached(ContentCache& cache, const Hash128& key) {
+  const auto entry = cache.find(key);
+  if (!entry) return std::nullopt;
+  auto mesh = decode_mesh(entry->bytes);
+  if (!mesh) cache.refuse();
+  return mesh;
+}
+
+std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, ContentCache* cache,
+                                  TaskReport& report) {
   const std::string extension = extension_of(asset.path);
   if (extension != ".obj" && extension != ".ply") {
     report.diagnostics.push_back(
@@ -47,11 +62,23 @@ std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, Tas
     return std::nullopt;
   }
   const MeshLimits limits;
+  if (asset.hash == Hash128{}) cache = nullptr;
+  const Hash128 key = mesh_key(asset.hash, extension, limits);
+  if (cache != nullptr) {
+    if (auto cached = find_cached(*cache, key)) return cached;
+  }
   const auto content = read_asset(asset, files, limits.file_bytes, report);
   if (!content) return std::nullopt;
   auto data =
       extension == ".obj" ? read_obj(content->bytes, limits) : read_ply(content->bytes, limits);
-  if (data) return std::move(data).value();
+  if (data) {
+    // The file may have changed since its hash was taken.
+    if (cache != nullptr && content->bytes.size() >= smallest_cached_file &&
+        hash_bytes(content->bytes) == asset.hash) {
+      cache->store(key, EncodedMesh(data.value()).pieces());
+    }
+    return std::move(data).value();
+  }
   report.diagnostics.emplace_back(DiagnosticKind::mesh_broken, asset.span,
                                   located(asset.path, data.error()));
   return std::nullopt;
@@ -123,10 +150,11 @@ using MeshPtr = std::shared_ptr<const TriangleMesh>;
 // The meshes of one file: what they have in common is made once.
 class FileMeshes {
  public:
-  FileMeshes(const MeshData& data, const ir::Asset& asset, TaskReport& task)
-      : data_(data), asset_(asset), task_(task), parts_(data, asset.path) {
+  // `once`: one mesh will be asked for, so the data may be used up for it.
+  FileMeshes(MeshData data, const ir::Asset& asset, bool once, TaskReport& task)
+      : data_(std::move(data)), asset_(asset), once_(once), task_(task), parts_(data_, asset.path) {
     MeshReport report;
-    report_file(data, asset.path, asset.span, report);
+    report_file(data_, asset.path, asset.span, report);
     take_report(report, task);
   }
 
@@ -168,14 +196,16 @@ class FileMeshes {
     if (same != wholes_.end()) return same->mesh;
     MeshReport report;
     auto mesh = std::make_shared<TriangleMesh>(
-        mesh_of_file(source, data_, asset_.path, asset_.span, report));
+        once_ ? mesh_of_file(source, std::move(data_), asset_.path, asset_.span, report)
+              : mesh_of_file(source, data_, asset_.path, asset_.span, report));
     take_report(report, task_);
     wholes_.push_back({&source, mesh});
     return mesh;
   }
 
-  const MeshData& data_;
+  MeshData data_;
   const ir::Asset& asset_;
+  bool once_;
   TaskReport& task_;
   MeshPartTaker parts_;
   std::vector<Made> wholes_;
@@ -183,7 +213,8 @@ class FileMeshes {
 };
 
 void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::vector<Span>& spans,
-                   FileSystem& files, PreparedScene& prepared, TaskReport& task) {
+                   FileSystem& files, ContentCache* cache, PreparedScene& prepared,
+                   TaskReport& task) {
   if (!group.asset.valid()) {
     const std::size_t index = group.meshes.front();
     MeshReport report;
@@ -193,9 +224,9 @@ void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::ve
     return;
   }
   const ir::Asset& asset = scene.assets[group.asset];
-  const std::optional<MeshData> data = read_mesh(asset, files, task);
+  std::optional<MeshData> data = read_mesh(asset, files, cache, task);
   if (!data) return;
-  FileMeshes meshes(*data, asset, task);
+  FileMeshes meshes(std::move(*data), asset, group.meshes.size() == 1, task);
   for (const std::size_t index : group.meshes)
     prepared.meshes[index] = meshes.mesh_of(mesh_at(scene, index));
 }
@@ -214,7 +245,7 @@ std::vector<ir::AssetId> images_of(const ir::Scene& scene) {
 }  // namespace
 
 PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
-                    DiagnosticSink& sink) {
+                    DiagnosticSink& sink, ContentCache* cache) {
   PreparedPtr prepared(new PreparedScene{&scene, {}, {}});
   prepared->meshes.resize(scene.table<ir::Mesh>().size());
   prepared->images.resize(scene.assets.size());
@@ -224,7 +255,7 @@ PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
   std::vector<TaskReport> reports(groups.size() + images.size());
   pool.for_each(reports.size(), [&](std::size_t i, unsigned) {
     if (i < groups.size()) {
-      prepare_group(groups[i], scene, spans, files, *prepared, reports[i]);
+      prepare_group(groups[i], scene, spans, files, cache, *prepared, reports[i]);
     } else {
       const ir::AssetId asset = images[i - groups.size()];
       prepared->images[asset.value()] = read_picture(scene.assets[asset], files, reports[i]);

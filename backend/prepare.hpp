@@ -18,8 +18,11 @@ struct MeshReport {
 };
 
 // All faces of the file as an IR mesh asks for them (its `part` left aside). `where`: the place
-// messages mark.
+// messages mark. The second form takes the positions and indices of `data` over; its names and parts
+// stay.
 [[nodiscard]] TriangleMesh mesh_of_file(const ir::Mesh& mesh, const MeshData& data,
+                                        const std::string& path, Span where, MeshReport& report);
+[[nodiscard]] TriangleMesh mesh_of_file(const ir::Mesh& mesh, MeshData&& data,
                                         const std::string& path, Span where, MeshReport& report);
 // What is wrong with the file itself, whatever is taken of it.
 void report_file(const MeshData& data, const std::string& path, Span where, MeshReport& report);

@@ -137,7 +137,7 @@ void choose_normals(const ir::Mesh& source, const MeshData& data, const std::str
       if (!data.normals.empty()) take_normals_of_file(data, mesh);
       return;
     case ir::NormalMode::file:
-      if (!every_corner_has_normal(data) && !data.triangles.empty()) {
+      if (!every_corner_has_normal(data) && !mesh.faces.empty()) {
         report.error = Diagnostic(DiagnosticKind::mesh_lacks_normals, where,
                                   "`normals = .file`, but " + path +
                                       (data.normals.empty() ? " has no normals"
@@ -185,12 +185,18 @@ std::vector<Normal3> smooth_normals_of(const std::vector<Point3>& positions,
 
 TriangleMesh mesh_of_file(const ir::Mesh& source, const MeshData& data, const std::string& path,
                           Span where, MeshReport& report) {
+  return mesh_of_file(source, MeshData(data), path, where, report);
+}
+
+TriangleMesh mesh_of_file(const ir::Mesh& source, MeshData&& data, const std::string& path,
+                          Span where, MeshReport& report) {
   TriangleMesh mesh;
-  mesh.positions.reserve(data.positions.size());
+  mesh.positions = std::move(data.positions);
+  mesh.faces = std::move(data.triangles);
   const double unit = source.unit.value;
-  for (const auto& p : data.positions)
-    mesh.positions.push_back({p[0] * unit, p[1] * unit, p[2] * unit});
-  mesh.faces = data.triangles;
+  if (unit != 1) {
+    for (Point3& p : mesh.positions) p = {p.x * unit, p.y * unit, p.z * unit};
+  }
   if (!data.uvs.empty()) take_uvs_of_file(data, mesh);
   choose_normals(source, data, path, where, mesh, report);
   return mesh;

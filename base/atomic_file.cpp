@@ -110,9 +110,10 @@ class TemporaryFile {
     }
     return 0;
   }
-  [[nodiscard]] int flush_and_close() {
+  [[nodiscard]] int flush_and_close(Durability durability) {
     // Some file systems have no fsync and say EINVAL; every other failure means lost bytes.
-    if (::fsync(descriptor_) != 0 && errno != EINVAL) return errno;
+    if (durability == Durability::immediate && ::fsync(descriptor_) != 0 && errno != EINVAL)
+      return errno;
     const int closing = ::close(descriptor_);
     descriptor_ = -1;
     return closing == 0 ? 0 : errno;
@@ -166,7 +167,8 @@ void flush_directory(const std::string& directory) {
   ::close(descriptor);
 }
 
-int replace(const std::string& target, std::string_view bytes) {
+int replace(const std::string& target, std::span<const std::string_view> pieces,
+            Durability durability) {
   TemporaryFile file(target);
   if (file.opening_error() != 0) return file.opening_error();
   struct stat existing{};
@@ -174,8 +176,10 @@ int replace(const std::string& target, std::string_view bytes) {
     if (const int error = file.set_mode(existing.st_mode & permission_bits)) return error;
   }
   const SizeSignalHeld held;
-  if (const int error = file.write(bytes)) return error;
-  if (const int error = file.flush_and_close()) return error;
+  for (const std::string_view piece : pieces) {
+    if (const int error = file.write(piece)) return error;
+  }
+  if (const int error = file.flush_and_close(durability)) return error;
   return file.rename_to(target);
 }
 
@@ -198,10 +202,16 @@ std::optional<std::string> find_output_problem(const std::string& path) {
 }
 
 std::optional<std::string> write_file_atomically(const std::string& path, std::string_view bytes) {
+  return write_file_atomically(path, std::span(&bytes, 1), Durability::immediate);
+}
+
+std::optional<std::string> write_file_atomically(const std::string& path,
+                                                 std::span<const std::string_view> pieces,
+                                                 Durability durability) {
   if (auto problem = find_output_problem(path)) return problem;
   const std::string target = target_of(path);
-  if (const int error = replace(target, bytes)) return text_of_errno(error);
-  flush_directory(parent_of(target));
+  if (const int error = replace(target, pieces, durability)) return text_of_errno(error);
+  if (durability == Durability::immediate) flush_directory(parent_of(target));
   return std::nullopt;
 }
 

@@ -9,6 +9,8 @@
 #include <new>
 #include <optional>
 
+#include "base/huge_pages.hpp"
+
 namespace scenec {
 
 FileError file_error_of(int error_number) {
@@ -53,6 +55,7 @@ Result<FileContent, FileError> read_all(int descriptor, std::uint64_t expected_s
                                         std::uint64_t size_limit) {
   std::uint64_t capacity = expected_size + 1;
   auto buffer = std::make_shared_for_overwrite<char[]>(capacity);
+  advise_huge_pages(buffer.get(), capacity);
   std::uint64_t size = 0;
   while (true) {
     const ssize_t count =

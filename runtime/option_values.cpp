@@ -101,6 +101,20 @@ Parsed<Time> parse_duration(std::string_view text) {
   return Failure{expected};
 }
 
+Parsed<std::uint64_t> parse_byte_count(std::string_view text) {
+  constexpr std::int64_t most_bytes = std::int64_t{1} << 50;
+  constexpr std::pair<std::string_view, int> units[] = {
+      {"KiB", 10}, {"MiB", 20}, {"GiB", 30}, {"TiB", 40}, {"B", 0}};
+  for (const auto& [suffix, shift] : units) {
+    if (!text.ends_with(suffix)) continue;
+    const auto count =
+        parse_whole_number(text.substr(0, text.size() - suffix.size()), 1, most_bytes >> shift);
+    if (count) return static_cast<std::uint64_t>(count.value()) << shift;
+    break;
+  }
+  return Failure{std::string("a number of bytes with its unit: `500MiB` or `2GiB`")};
+}
+
 Parsed<NameAndValue> parse_setting(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string_view::npos) {

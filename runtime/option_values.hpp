@@ -25,6 +25,9 @@ using Parsed = Result<T, std::string>;
 // A number with its unit glued on: `500ms 30s 2min 1.5h`; above zero.
 [[nodiscard]] Parsed<Time> parse_duration(std::string_view text);
 
+// Bytes with their unit glued on: `500MiB`, `2GiB`, `64KiB`, `1048576B`; whole and above zero.
+[[nodiscard]] Parsed<std::uint64_t> parse_byte_count(std::string_view text);
+
 struct NameAndValue {
   std::string name;
   std::string value;

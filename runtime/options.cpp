@@ -170,6 +170,16 @@ constexpr std::array option_table{
         [](Options& o, Text v) {
           return store_parsed(o.max_include_depth, parse_whole_number(v, 0, largest_include_depth));
         }},
+    OptionRow{"--cache", "DIR|off", "where decoded meshes are kept (default: the user's cache)",
+              VerbSet{Verb::render, Verb::check},
+              [](Options& o, Text v) -> Problem {
+                if (v.empty()) return "`off` or the name of a directory";
+                o.cache = v;
+                return std::nullopt;
+              }},
+    OptionRow{"--cache-limit", "SIZE", "bytes the cache may take (default 2GiB)",
+              VerbSet{Verb::render, Verb::check},
+              [](Options& o, Text v) { return store_parsed(o.cache_budget, parse_byte_count(v)); }},
     OptionRow{"--threads", "N", "threads to work with (default: all)",
               VerbSet{Verb::render, Verb::check},
               [](Options& o, Text v) {

@@ -53,6 +53,8 @@ struct Options {
   std::optional<std::int64_t> max_source;
   std::optional<std::int64_t> max_includes;
   std::optional<std::int64_t> max_include_depth;
+  std::string cache;  // `off` or a directory; empty: runtime/cache.hpp decides
+  std::optional<std::uint64_t> cache_budget;
   std::optional<std::int64_t> threads;
   bool stamp = false;
   ColorChoice color = ColorChoice::automatic;

@@ -25,6 +25,13 @@ double sample_count(const RunStats& stats) {
   return static_cast<double>(stats.samples) * static_cast<double>(stats.pixels);
 }
 
+std::string cache_rows(const ContentCacheCounts& cache) {
+  std::string text = fmt::format("{:<18}{:>12}\n{:<18}{:>12}\n", "cache hits", cache.hits,
+                                 "cache misses", cache.misses);
+  if (!cache.note.empty()) text += fmt::format("not cached: {}\n", cache.note);
+  return text;
+}
+
 }  // namespace
 
 double RunStats::seconds_of(std::string_view phase) const {
@@ -58,6 +65,7 @@ std::string stats_table(const RunStats& stats) {
   if (stats.dropped_samples > 0) {
     text += fmt::format("{:<18}{:>12}\n", "dropped samples", stats.dropped_samples);
   }
+  if (stats.cache) text += cache_rows(*stats.cache);
   return text + fmt::format("{:<18}{:>12.1f} MiB\n", "peak memory", peak_megabytes());
 }
 
@@ -70,6 +78,12 @@ std::string stats_json(const RunStats& stats) {
   json["rays"] = stats.rays;
   json["rays_per_second"] = per_second(static_cast<double>(stats.rays), rendering);
   json["dropped_samples"] = stats.dropped_samples;
+  if (stats.cache) {
+    json["cache"] = {{"hits", stats.cache->hits},
+                     {"misses", stats.cache->misses},
+                     {"stored", stats.cache->stored},
+                     {"note", stats.cache->note}};
+  }
   json["peak_mebibytes"] = peak_megabytes();
   return json.dump(2) + "\n";
 }

@@ -4,10 +4,13 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "base/content_cache.hpp"
 
 namespace scenec::runtime {
 
@@ -17,6 +20,7 @@ struct RunStats {
   std::int64_t samples = 0;  // a pixel
   std::int64_t pixels = 0;
   std::uint64_t dropped_samples = 0;
+  std::optional<ContentCacheCounts> cache;  // nullopt: nothing is kept
 
   [[nodiscard]] double seconds_of(std::string_view phase) const;
 };

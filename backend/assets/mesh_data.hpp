@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "backend/math/vec.hpp"
 #include "base/text_scan.hpp"
 
 namespace scenec::backend {
@@ -39,7 +40,7 @@ struct DroppedFace {
 };
 
 struct MeshData {
-  std::vector<std::array<double, 3>> positions;
+  std::vector<Point3> positions;
   std::vector<std::array<float, 3>> normals;  // as written: not normalised, may be zero
   std::vector<std::array<float, 2>> uvs;
 

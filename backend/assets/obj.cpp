@@ -59,7 +59,8 @@ class ObjReader {
     }
     pad(faces_.corner_normals);
     pad(faces_.corner_uvs);
-    if (auto problem = triangulate(faces_, limits_, mesh_)) return Failure{std::move(*problem)};
+    if (auto problem = triangulate(std::move(faces_), limits_, mesh_))
+      return Failure{std::move(*problem)};
     return std::move(mesh_);
   }
 
@@ -122,7 +123,7 @@ class ObjReader {
         !coordinate(cursor, "z of the vertex", p[2])) {
       return false;
     }
-    mesh_.positions.push_back(p);
+    mesh_.positions.push_back({p[0], p[1], p[2]});
     return cursor.at_end() || skip_numbers(cursor, 5);
   }
 

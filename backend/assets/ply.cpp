@@ -13,6 +13,7 @@
 #include "backend/assets/ply_body.hpp"
 #include "backend/assets/ply_header.hpp"
 #include "backend/assets/triangulate.hpp"
+#include "base/huge_pages.hpp"
 #include "base/text.hpp"
 #include "base/text_scan.hpp"
 
@@ -42,6 +43,29 @@ Role role_of(std::string_view name) {
   return Role::none;
 }
 
+// Where the values of a vertex lie in its row, when all rows have one size.
+struct VertexLayout {
+  std::array<std::size_t, role_count> offsets{};
+  std::array<bool, role_count> seen{};
+  std::size_t row_size = 0;
+  bool has_list = false;
+  bool only_floats = true;  // of the roles
+
+  void add(Role role, const PlyProperty& property) {
+    const auto index = static_cast<std::size_t>(role);
+    seen[index] = true;
+    offsets[index] = row_size;
+    has_list = has_list || property.is_list;
+    if (role != Role::none) only_floats = only_floats && property.type == PlyType::float32;
+    row_size += size_of(property.type);
+  }
+  [[nodiscard]] bool has(Role role) const { return seen[static_cast<std::size_t>(role)]; }
+  [[nodiscard]] std::size_t offset(Role role) const {
+    return offsets[static_cast<std::size_t>(role)];
+  }
+  [[nodiscard]] bool is_packed_floats() const { return !has_list && only_floats; }
+};
+
 template <class Body>
 class PlyReader {
  public:
@@ -62,7 +86,8 @@ class PlyReader {
           AssetProblem{farthest_line_, fmt::format("face index {} is beyond the {} vertices",
                                                    farthest_, mesh_.positions.size())}};
     }
-    if (auto problem = triangulate(faces_, limits_, mesh_)) return Failure{std::move(*problem)};
+    if (auto problem = triangulate(std::move(faces_), limits_, mesh_))
+      return Failure{std::move(*problem)};
     return std::move(mesh_);
   }
 
@@ -122,28 +147,55 @@ class PlyReader {
   bool read_vertices(const PlyElement& element) {
     if (element.count > most_vertices) return fail(element, 0, "too many vertices");
     std::vector<Role> roles;
-    std::array<bool, role_count> seen{};
+    VertexLayout layout;
     for (const PlyProperty& property : element.properties) {
       Role role = property.is_list ? Role::none : role_of(property.name);
-      if (seen[static_cast<std::size_t>(role)]) role = Role::none;
-      seen[static_cast<std::size_t>(role)] = true;
+      if (layout.has(role)) role = Role::none;
+      layout.add(role, property);
       roles.push_back(role);
     }
-    const auto has = [&](Role role) { return seen[static_cast<std::size_t>(role)]; };
+    const auto has = [&](Role role) { return layout.has(role); };
     if (!has(Role::x) || !has(Role::y) || !has(Role::z)) {
       problem_ = {element.line, "element `vertex` needs the properties `x`, `y` and `z`"};
       return false;
     }
     const bool has_normals = has(Role::nx) && has(Role::ny) && has(Role::nz);
     const bool has_uvs = has(Role::u) && has(Role::v);
-    mesh_.positions.reserve(element.count);
+    reserve_large(mesh_.positions, element.count);
     if (has_normals) mesh_.normals.reserve(element.count);
     if (has_uvs) mesh_.uvs.reserve(element.count);
+    if constexpr (Body::is_binary) {
+      if (layout.is_packed_floats() && !has_normals && !has_uvs)
+        return read_packed_positions(element, layout);
+    }
     for (std::uint64_t row = 0; row < element.count; ++row) {
       if (!read_vertex(element, roles, row)) return false;
       if (!keep_vertex(element, row, has_normals, has_uvs)) return false;
     }
     return true;
+  }
+
+  // Rows of one size with the position in single precision: most files.
+  bool read_packed_positions(const PlyElement& element, const VertexLayout& layout) {
+    const std::string_view rows = body_.take_rows(element.count, layout.row_size);
+    if (rows.empty()) return fail(element, 0, RowProblem::truncated);
+    const char* row = rows.data();
+    mesh_.positions.resize(element.count);
+    bool finite = true;
+    for (Point3& p : mesh_.positions) {
+      p.x = static_cast<double>(Body::template load<float>(row + layout.offset(Role::x)));
+      p.y = static_cast<double>(Body::template load<float>(row + layout.offset(Role::y)));
+      p.z = static_cast<double>(Body::template load<float>(row + layout.offset(Role::z)));
+      // The sum of the magnitudes is finite when each is: they are floats.
+      finite = finite && std::isfinite(std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z));
+      row += layout.row_size;
+    }
+    if (finite) return true;
+    const auto bad = std::ranges::find_if_not(mesh_.positions, [](const Point3& p) {
+      return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    });
+    return fail(element, static_cast<std::uint64_t>(bad - mesh_.positions.begin()),
+                "coordinate is not finite");
   }
 
   bool read_vertex(const PlyElement& element, const std::vector<Role>& roles, std::uint64_t row) {
@@ -161,8 +213,8 @@ class PlyReader {
   bool keep_vertex(const PlyElement& element, std::uint64_t row, bool has_normals, bool has_uvs) {
     const auto value = [&](Role role) { return values_[static_cast<std::size_t>(role)]; };
     const auto narrow = [&](Role role) { return static_cast<float>(value(role)); };
-    const std::array<double, 3> p{value(Role::x), value(Role::y), value(Role::z)};
-    bool finite = std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+    const Point3 p{value(Role::x), value(Role::y), value(Role::z)};
+    bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
     mesh_.positions.push_back(p);
     if (has_normals) {
       const std::array<float, 3> n{narrow(Role::nx), narrow(Role::ny), narrow(Role::nz)};
@@ -189,7 +241,14 @@ class PlyReader {
       return false;
     }
     if (element.count >= no_index) return fail(element, 0, "too many faces");
-    for (std::uint64_t row = 0; row < element.count; ++row) {
+    std::uint64_t row = 0;
+    if constexpr (Body::is_binary) {
+      const PlyProperty& list = element.properties[indices];
+      const bool usual = list.count_type == PlyType::uint8 &&
+                         (list.type == PlyType::int32 || list.type == PlyType::uint32);
+      if (element.properties.size() == 1 && usual) row = read_packed_triangles(element, list.type);
+    }
+    for (; row < element.count; ++row) {
       RowProblem problem = body_.begin_row();
       for (std::size_t i = 0; i < element.properties.size() && problem == RowProblem::none; ++i) {
         if (i != indices) {
@@ -202,6 +261,32 @@ class PlyReader {
       if (problem != RowProblem::none) return fail(element, row, problem);
     }
     return true;
+  }
+
+  // Rows of a count byte and three 32-bit indices, up to the first that is not one or names what
+  // cannot be an index; that row and the rest are read, or refused, one value at a time. Returns
+  // how many rows were read.
+  std::uint64_t read_packed_triangles(const PlyElement& element, PlyType type) {
+    constexpr std::size_t row_size = 1 + 3 * sizeof(std::uint32_t);
+    const std::string_view bytes = body_.bytes();
+    const std::uint64_t most = std::min<std::uint64_t>(element.count, bytes.size() / row_size);
+    const std::uint64_t largest = type == PlyType::int32 ? 0x7FFF'FFFF : most_vertices;
+    resize_large(faces_.triangles, most);
+    std::uint64_t farthest = 0;
+    std::uint64_t count = 0;
+    for (const char* row = bytes.data(); count < most && *row == 3; row += row_size) {
+      TriangleIndices& t = faces_.triangles[count];
+      for (std::size_t i = 0; i < 3; ++i)
+        t[i] = Body::template load<std::uint32_t>(row + 1 + i * sizeof(std::uint32_t));
+      const std::uint64_t farthest_here = std::max({t[0], t[1], t[2]});
+      if (farthest_here > largest) break;
+      farthest = std::max(farthest, farthest_here);
+      ++count;
+    }
+    faces_.triangles.resize(count);
+    farthest_ = std::max(farthest_, farthest);
+    body_.advance(count * row_size);
+    return count;
   }
 
   bool read_face(const PlyElement& element, const PlyProperty& property, std::uint64_t row) {
@@ -223,7 +308,7 @@ class PlyReader {
         return fail(element, row, fmt::format("corner {} has the index {}", i + 1, index));
       }
       const auto whole = static_cast<std::uint32_t>(index);
-      if (whole > farthest_ || faces_.corner_positions.empty()) {
+      if (whole > farthest_) {
         farthest_ = whole;
         farthest_line_ = body_.line();
       }
@@ -278,8 +363,9 @@ Result<MeshData, AssetProblem> read_ply(std::string_view bytes, const MeshLimits
         .run();
   }
   const bool little = header.value().format == PlyFormat::binary_little_endian;
-  const bool swapped = little != (std::endian::native == std::endian::little);
-  return PlyReader(header.value(), BinaryBody(body, swapped), limits).run();
+  if (little == (std::endian::native == std::endian::little))
+    return PlyReader(header.value(), BinaryBody<false>(body), limits).run();
+  return PlyReader(header.value(), BinaryBody<true>(body), limits).run();
 }
 
 }  // namespace scenec::backend

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 
 #include "backend/assets/mesh_data.hpp"
 #include "backend/assets/ply_header.hpp"
@@ -29,6 +30,7 @@ enum class RowProblem : std::uint8_t {
 // Values of an ascii body: one row a line, blank lines between rows allowed.
 class AsciiBody {
  public:
+  static constexpr bool is_binary = false;
   AsciiBody(std::string_view bytes, std::uint64_t first_line, const MeshLimits& limits)
       : scanner_(bytes, limits.line_bytes, LineScanner::Continuation::none),
         first_line_(first_line) {}
@@ -88,9 +90,37 @@ class AsciiBody {
 };
 
 // Values of a binary body. `swapped`: its byte order is not the machine's.
+template <bool swapped>
 class BinaryBody {
  public:
-  BinaryBody(std::string_view bytes, bool swapped) : rest_(bytes), swapped_(swapped) {}
+  static constexpr bool is_binary = true;
+  explicit BinaryBody(std::string_view bytes) : rest_(bytes) {}
+
+  // The bytes of rows of one size, which are then behind; empty when there are not as many.
+  std::string_view take_rows(std::uint64_t count, std::size_t row_size) {
+    if (row_size == 0 || count > rest_.size() / row_size) return {};
+    const std::string_view rows = rest_.substr(0, static_cast<std::size_t>(count) * row_size);
+    rest_.remove_prefix(rows.size());
+    return rows;
+  }
+  // What has not been read.
+  [[nodiscard]] std::string_view bytes() const { return rest_; }
+  void advance(std::size_t size) { rest_.remove_prefix(size); }
+
+  // The value that lies at `from`.
+  template <class T>
+  static T load(const char* from) {
+    using Bits = std::conditional_t<
+        sizeof(T) == 1, std::uint8_t,
+        std::conditional_t<sizeof(T) == 2, std::uint16_t,
+                           std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>>>;
+    Bits bits;
+    std::memcpy(&bits, from, sizeof bits);
+    if constexpr (swapped && sizeof bits == 2) bits = __builtin_bswap16(bits);
+    if constexpr (swapped && sizeof bits == 4) bits = __builtin_bswap32(bits);
+    if constexpr (swapped && sizeof bits == 8) bits = __builtin_bswap64(bits);
+    return std::bit_cast<T>(bits);
+  }
 
   RowProblem begin_row() { return RowProblem::none; }
   RowProblem end_row() { return RowProblem::none; }
@@ -98,28 +128,28 @@ class BinaryBody {
     if (rest_.size() < size_of(type)) return RowProblem::truncated;
     switch (type) {
       case PlyType::int8:
-        value = take<std::int8_t, std::uint8_t>();
+        value = take<std::int8_t>();
         break;
       case PlyType::uint8:
-        value = take<std::uint8_t, std::uint8_t>();
+        value = take<std::uint8_t>();
         break;
       case PlyType::int16:
-        value = take<std::int16_t, std::uint16_t>();
+        value = take<std::int16_t>();
         break;
       case PlyType::uint16:
-        value = take<std::uint16_t, std::uint16_t>();
+        value = take<std::uint16_t>();
         break;
       case PlyType::int32:
-        value = take<std::int32_t, std::uint32_t>();
+        value = take<std::int32_t>();
         break;
       case PlyType::uint32:
-        value = take<std::uint32_t, std::uint32_t>();
+        value = take<std::uint32_t>();
         break;
       case PlyType::float32:
-        value = static_cast<double>(take<float, std::uint32_t>());
+        value = static_cast<double>(take<float>());
         break;
       case PlyType::float64:
-        value = take<double, std::uint64_t>();
+        value = take<double>();
         break;
     }
     return RowProblem::none;
@@ -135,21 +165,14 @@ class BinaryBody {
   [[nodiscard]] std::size_t rest() const { return rest_.size(); }
 
  private:
-  template <class T, class Bits>
+  template <class T>
   T take() {
-    Bits bits;
-    std::memcpy(&bits, rest_.data(), sizeof bits);
-    rest_.remove_prefix(sizeof bits);
-    if (swapped_) {
-      if constexpr (sizeof bits == 2) bits = __builtin_bswap16(bits);
-      if constexpr (sizeof bits == 4) bits = __builtin_bswap32(bits);
-      if constexpr (sizeof bits == 8) bits = __builtin_bswap64(bits);
-    }
-    return std::bit_cast<T>(bits);
+    const T value = load<T>(rest_.data());
+    rest_.remove_prefix(sizeof value);
+    return value;
   }
 
   std::string_view rest_;
-  bool swapped_;
 };
 
 }  // namespace scenec::backend

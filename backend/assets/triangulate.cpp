@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "base/assert.hpp"
 
@@ -17,8 +18,8 @@ namespace {
 using Vec3 = std::array<double, 3>;
 using Vec2 = std::array<double, 2>;
 
-Vec3 difference(const Vec3& a, const Vec3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+Vec3 difference(const Point3& a, const Point3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
 Vec3 cross(const Vec3& a, const Vec3& b) {
@@ -46,7 +47,7 @@ Vec3 rescaled(const Vec3& a) {
   return {std::ldexp(a[0], -exponent), std::ldexp(a[1], -exponent), std::ldexp(a[2], -exponent)};
 }
 
-bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+bool has_area(const Point3& a, const Point3& b, const Point3& c) {
   const Vec3 ab = difference(b, a);
   const Vec3 ac = difference(c, a);
   if (!is_zero(cross(ab, ac))) return true;
@@ -60,26 +61,28 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
 
 class Triangulator {
  public:
-  Triangulator(const FaceList& faces, const MeshLimits& limits, MeshData& mesh)
+  Triangulator(FaceList& faces, const MeshLimits& limits, MeshData& mesh)
       : faces_(faces), mesh_(mesh), limits_(limits), ear_tests_left_(limits.ear_tests) {}
 
   std::optional<AssetProblem> run() {
     if (std::optional<AssetProblem> problem = reserve()) return problem;
+    keep_leading_triangles();
     std::size_t part = 0;
     std::size_t first_corner = 0;
     for (std::size_t face = 0; face < faces_.sizes.size(); ++face) {
       while (part < faces_.parts.size() && faces_.parts[part].first_face <= face) open_part(part++);
-      const std::size_t size = faces_.sizes[face];
+      const std::uint32_t size = faces_.sizes[face];
       const std::size_t before = mesh_.triangles.size();
       if (size == 3) {
         emit(first_corner, 0, 1, 2);
       } else if (!add_polygon(first_corner, size)) {
         return AssetProblem{
-            line_of(face), fmt::format("the concave polygons up to this one, with {} corners, cost "
-                                       "more than {} tests to cut into triangles; split it",
-                                       size, limits_.ear_tests)};
+            line_of(leading_ + face),
+            fmt::format("the concave polygons up to this one, with {} corners, cost "
+                        "more than {} tests to cut into triangles; split it",
+                        size, limits_.ear_tests)};
       }
-      if (mesh_.triangles.size() == before) drop(first_corner, size, face);
+      if (mesh_.triangles.size() == before) drop(corners(first_corner, size), leading_ + face);
       first_corner += size;
     }
     close_parts();
@@ -91,21 +94,42 @@ class Triangulator {
     return faces_.lines.empty() ? 0 : faces_.lines[face];
   }
 
-  const Vec3& position(std::size_t corner) const {
+  std::span<const std::uint32_t> corners(std::size_t first, std::size_t size) const {
+    return std::span(faces_.corner_positions).subspan(first, size);
+  }
+
+  const Point3& position(std::size_t corner) const {
     return mesh_.positions[faces_.corner_positions[corner]];
   }
 
   std::optional<AssetProblem> reserve() {
-    const std::uint64_t count = faces_.corner_positions.size() - 2 * faces_.sizes.size();
+    const std::uint64_t count =
+        faces_.triangles.size() + faces_.corner_positions.size() - 2 * faces_.sizes.size();
     if (count > limits_.triangles) {
       return AssetProblem{
           0, fmt::format("{} triangles; at most {} are allowed", count, limits_.triangles)};
     }
+    leading_ = faces_.triangles.size();
+    mesh_.triangles = std::move(faces_.triangles);
     mesh_.triangles.reserve(count);
     if (!faces_.corner_normals.empty()) mesh_.normal_triangles.reserve(count);
     if (!faces_.corner_uvs.empty()) mesh_.uv_triangles.reserve(count);
     if (faces_.parts.empty()) mesh_.parts.push_back({});
     return std::nullopt;
+  }
+
+  // Those with an area move together; the vector is not copied.
+  void keep_leading_triangles() {
+    std::size_t kept = 0;
+    for (std::size_t face = 0; face < leading_; ++face) {
+      const TriangleIndices t = mesh_.triangles[face];
+      if (has_area(mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]])) {
+        mesh_.triangles[kept++] = t;
+      } else {
+        drop(t, face);
+      }
+    }
+    mesh_.triangles.resize(kept);
   }
 
   void open_part(std::size_t part) {
@@ -135,10 +159,9 @@ class Triangulator {
     if (!faces_.corner_uvs.empty()) mesh_.uv_triangles.push_back(pick(faces_.corner_uvs));
   }
 
-  void drop(std::size_t first, std::size_t size, std::size_t face) {
+  void drop(std::span<const std::uint32_t> corners, std::size_t face) {
     ++mesh_.dropped_face_count;
     if (mesh_.dropped_faces.size() >= limits_.reported_dropped_faces) return;
-    const auto corners = std::span(faces_.corner_positions).subspan(first, size);
     std::vector<std::uint32_t> sorted(corners.begin(), corners.end());
     std::ranges::sort(sorted);
     const auto distinct = std::ranges::unique(sorted).begin() - sorted.begin();
@@ -186,8 +209,9 @@ class Triangulator {
     const double sign = normal[axis] < 0 ? -1.0 : 1.0;
     plane_.resize(size);
     for (std::size_t i = 0; i < size; ++i) {
-      const Vec3& p = position(first + i);
-      plane_[i] = {p[(axis + 1) % 3] * sign, p[(axis + 2) % 3]};
+      const Point3& p = position(first + i);
+      plane_[i] = {component(p, static_cast<int>((axis + 1) % 3)) * sign,
+                   component(p, static_cast<int>((axis + 2) % 3))};
     }
   }
 
@@ -232,7 +256,8 @@ class Triangulator {
     return true;
   }
 
-  const FaceList& faces_;
+  FaceList& faces_;
+  std::size_t leading_ = 0;  // faces taken from `FaceList::triangles`
   MeshData& mesh_;
   const MeshLimits& limits_;
   std::uint64_t ear_tests_left_;
@@ -242,9 +267,10 @@ class Triangulator {
 
 }  // namespace
 
-std::optional<AssetProblem> triangulate(const FaceList& faces, const MeshLimits& limits,
-                                        MeshData& mesh) {
+std::optional<AssetProblem> triangulate(FaceList faces, const MeshLimits& limits, MeshData& mesh) {
   SCENEC_ASSERT(faces.corner_positions.size() >= 3 * faces.sizes.size());
+  SCENEC_ASSERT(faces.triangles.empty() ||
+                (faces.parts.empty() && faces.corner_normals.empty() && faces.corner_uvs.empty()));
   return Triangulator(faces, limits, mesh).run();
 }
 

@@ -20,11 +20,13 @@ struct FacePart {
 
 // Corners of all faces one after the other, checked against the tables they index.
 struct FaceList {
+  // Faces before all others, when they are triangles that name positions only (of a PLY file).
+  std::vector<TriangleIndices> triangles;
   std::vector<std::uint32_t> corner_positions;
   std::vector<std::uint32_t> corner_normals;  // empty, or as long as corner_positions
   std::vector<std::uint32_t> corner_uvs;      // likewise
   std::vector<std::uint32_t> sizes;           // corners of each face, at least 3
-  std::vector<std::uint32_t> lines;           // of each face; empty for a binary file
+  std::vector<std::uint32_t> lines;           // of each face, `triangles` included, or empty
   std::vector<FacePart> parts;                // ascending; empty: one part with no names
 };
 
@@ -39,7 +41,7 @@ struct FaceList {
 //
 // Fills triangles, index tables, parts and dropped faces of `mesh` from `faces`; positions,
 // normals, uvs and names are already there.
-[[nodiscard]] std::optional<AssetProblem> triangulate(const FaceList& faces,
-                                                      const MeshLimits& limits, MeshData& mesh);
+[[nodiscard]] std::optional<AssetProblem> triangulate(FaceList faces, const MeshLimits& limits,
+                                                      MeshData& mesh);
 
 }  // namespace scenec::backend

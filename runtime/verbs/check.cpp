@@ -1,6 +1,7 @@
 // `scenec check`: compiles a scene and reads its assets; silent when all is well.
 #include "backend/backend.hpp"
 #include "base/parallel.hpp"
+#include "runtime/cache.hpp"
 #include "runtime/output.hpp"
 #include "runtime/session.hpp"
 #include "runtime/verbs.hpp"
@@ -14,8 +15,12 @@ ExitCode verbs::check(const Options& options, const Environment& environment) {
     return ExitCode::file_error;
   }
   ThreadPool pool(static_cast<unsigned>(options.threads.value_or(0)));
-  if (const auto scene = session.load_and_compile(pool))
-    static_cast<void>(backend::prepare(*scene, session.files(), pool, session.sink()));
+  if (const auto scene = session.load_and_compile(pool)) {
+    std::optional<ContentCache> cache;
+    if (auto kept = cache_options_of(options, environment)) cache.emplace(std::move(*kept));
+    static_cast<void>(backend::prepare(*scene, session.files(), pool, session.sink(),
+                                       cache ? &*cache : nullptr));
+  }
   return session.finish(environment);
 }
 

@@ -14,6 +14,7 @@
 #include "backend/backend.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"
+#include "runtime/cache.hpp"
 #include "runtime/cli.hpp"
 #include "runtime/output.hpp"
 #include "runtime/progress.hpp"
@@ -85,6 +86,7 @@ class RenderRun {
         progress_(progress_style_of(options)),
         clock_(stats_),
         pool_(static_cast<unsigned>(options.threads.value_or(0))) {
+    if (auto kept = cache_options_of(options, environment)) cache_.emplace(std::move(*kept));
     session_.leave_out(sequence.told);
   }
 
@@ -100,7 +102,7 @@ class RenderRun {
     const auto settings = settings_of(options_, *scene, environment_);
     if (!settings) return ExitCode::usage;
     const backend::PreparedPtr prepared =
-        backend::prepare(*scene, session_.files(), pool_, session_.sink());
+        backend::prepare(*scene, session_.files(), pool_, session_.sink(), cache());
     clock_.finish("prepare");
     if (!prepared) return session_.finish(environment_);
     if (!outputs_are_no_inputs()) return refuse_output();
@@ -112,6 +114,8 @@ class RenderRun {
   }
 
  private:
+  ContentCache* cache() { return cache_ ? &*cache_ : nullptr; }
+
   // The outputs of later frames count from the first frame on.
   bool outputs_are_no_inputs() {
     bool sound = check_output_is_no_input(output_, session_);
@@ -188,6 +192,7 @@ class RenderRun {
     stats_.samples = picture.samples;
     stats_.pixels = std::int64_t{picture.width} * picture.height;
     stats_.dropped_samples = picture.dropped_samples;
+    if (cache_) stats_.cache = cache_->counts();
     if (options_.stats == StatsForm::table) environment_.err << stats_table(stats_);
     if (options_.stats != StatsForm::json) return std::nullopt;
     return write_file(options_.stats_file, stats_json(stats_));
@@ -209,6 +214,7 @@ class RenderRun {
   RunStats stats_;
   PhaseClock clock_;
   ThreadPool pool_;
+  std::optional<ContentCache> cache_;
 };
 
 // Whether the files of all frames can be written (else reported and printed).

@@ -45,8 +45,8 @@ TEST(Obj, ReadsAllCornerForms) {
 
 TEST(Obj, KeepsPositionsInDouble) {
   const MeshData mesh = mesh_of("v 0.1 +1.5e3 -1e-310\nv 1e-400 0 1\nv 0 1 0 1.0\nf 1 2 3");
-  EXPECT_EQ(mesh.positions[0], (std::array<double, 3>{0.1, 1500, -1e-310}));
-  EXPECT_EQ(mesh.positions[1][0], 0.0);
+  EXPECT_EQ(mesh.positions[0], (Point3{0.1, 1500, -1e-310}));
+  EXPECT_EQ(mesh.positions[1].x, 0.0);
 }
 
 TEST(Obj, TakesCarriageReturnsTabsCommentsContinuationsAndAByteOrderMark) {
@@ -159,7 +159,7 @@ TEST(Obj, DoesNotListenToTheLocale) {
   std::setlocale(LC_ALL, "de_DE.UTF-8");
   const MeshData mesh = mesh_of("v 0.5 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3");
   std::setlocale(LC_ALL, before.c_str());
-  EXPECT_EQ(mesh.positions[0][0], 0.5);
+  EXPECT_EQ(mesh.positions[0].x, 0.5);
 }
 
 const std::string sample = with_square(

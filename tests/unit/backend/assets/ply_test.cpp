@@ -69,7 +69,7 @@ std::string binary_sample(bool big) {
 TEST(Ply, ReadsAscii) {
   const Result<MeshData, AssetProblem> mesh = read_ply(ascii);
   ASSERT_TRUE(mesh.ok()) << mesh.error().line << ": " << mesh.error().message;
-  EXPECT_EQ(mesh.value().positions[1][0], 0.1);
+  EXPECT_EQ(mesh.value().positions[1].x, 0.1);
   EXPECT_EQ(mesh.value().triangles,
             (std::vector<TriangleIndices>{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(mesh.value().parts.size(), 1u);
@@ -79,8 +79,8 @@ TEST(Ply, ReadsBothByteOrders) {
   for (const bool big : {false, true}) {
     const Result<MeshData, AssetProblem> mesh = read_ply(binary_sample(big));
     ASSERT_TRUE(mesh.ok()) << mesh.error().message;
-    EXPECT_EQ(mesh.value().positions[2], (std::array<double, 3>{0.2, 0, -70'000}));
-    EXPECT_EQ(mesh.value().positions[1][1], 0.25);
+    EXPECT_EQ(mesh.value().positions[2], (Point3{0.2, 0, -70'000}));
+    EXPECT_EQ(mesh.value().positions[1].y, 0.25);
     EXPECT_EQ(mesh.value().triangles[0], (TriangleIndices{2, 1, 0}));
     EXPECT_EQ(normal_indices_of(mesh.value(), 0), (TriangleIndices{2, 1, 0}));
     EXPECT_EQ(mesh.value().normals[0], (std::array<float, 3>{0, 0, 1}));

@@ -11,7 +11,7 @@
 namespace scenec::backend {
 namespace {
 
-using Point = std::array<double, 3>;
+using Point = Point3;
 
 FaceList one_face(std::size_t size) {
   FaceList faces;
@@ -37,7 +37,7 @@ std::pair<double, double> areas_of(const MeshData& mesh) {
   double absolute = 0;
   for (const TriangleIndices& t : mesh.triangles) {
     const Point &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-    const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     sum += area / 2;
     absolute += std::abs(area) / 2;
   }
@@ -80,7 +80,7 @@ TEST(Triangulate, CoversRandomStarPolygons) {
     }
     for (std::size_t i = 0; i < size; ++i) {
       const Point &a = polygon[i], &b = polygon[(i + 1) % size];
-      area += (a[0] * b[1] - a[1] * b[0]) / 2;
+      area += (a.x * b.y - a.y * b.x) / 2;
     }
     const MeshData mesh = cut(polygon);
     const auto [sum, absolute] = areas_of(mesh);
