@@ -40,7 +40,9 @@ using RenderScenePtr = std::unique_ptr<RenderScene, Destroy>;
 [[nodiscard]] PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
                                   DiagnosticSink& sink, ContentCache* cache = nullptr);
 
-[[nodiscard]] RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool);
+// A tree that `cache` has for a mesh is not built again.
+[[nodiscard]] RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool,
+                                   ContentCache* cache = nullptr);
 
 // What the picture depends on, images included, and why (ir/effects.hpp).
 [[nodiscard]] ir::EffectReport find_effects(const RenderScene& scene,

@@ -44,10 +44,10 @@ std::uint32_t RenderScene::emitter_of(const Hit& hit) const {
   return found == instanced_emitters.end() ? RenderItem::none : found->second + hit.primitive;
 }
 
-RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool) {
+RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool, ContentCache* cache) {
   RenderScenePtr scene(new RenderScene(prepared));
   if (scene->facts.any_facets()) scene->ggx_albedo.emplace();
-  add_items(prepared, *scene, pool);
+  add_items(prepared, *scene, pool, cache);
   add_lights(prepared, *scene);
   scene->accel.build(pool);
   const Bounds3 bounds = scene->accel.bounds();

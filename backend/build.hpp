@@ -6,6 +6,7 @@
 
 #include "backend/math/transform.hpp"
 #include "backend/render_scene.hpp"
+#include "base/content_cache.hpp"
 #include "base/parallel.hpp"
 
 namespace scenec::backend {
@@ -24,13 +25,13 @@ namespace scenec::backend {
 [[nodiscard]] Revolve revolve_of(const ir::Revolve& shape);
 
 // Adds every item of the world (numbers from 0) and of the protos, and fills `scene.items`.
-void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& pool);
+void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& pool,
+               ContentCache* cache);
 // Adds the lights, their shapes, and every emissive item that can be sampled.
 void add_lights(const PreparedScene& prepared, RenderScene& scene);
 
 // The emitters of one shape, in the order of Hit::primitive; empty: cannot be sampled.
-[[nodiscard]] std::vector<Emitter> emitters_of(const RenderScene& scene,
-                                               const ir::ShapeRef& shape,
+[[nodiscard]] std::vector<Emitter> emitters_of(const RenderScene& scene, const ir::ShapeRef& shape,
                                                const Transform& world_from_object);
 
 }  // namespace scenec::backend

@@ -2,6 +2,7 @@
 #include <map>
 #include <utility>
 
+#include "backend/accel/tree_codec.hpp"
 #include "backend/build.hpp"
 #include "backend/geometry/revolve_mesh.hpp"
 
@@ -21,8 +22,8 @@ Vector3 vector_of(const ir::Direction& d) {
 // Shares what can be shared: one accelerator a mesh, a revolve, a proto.
 class ItemAdder {
  public:
-  ItemAdder(const PreparedScene& prepared, RenderScene& out, ThreadPool& pool)
-      : prepared_(prepared), scene_(*prepared.scene), out_(out), pool_(pool) {}
+  ItemAdder(const PreparedScene& prepared, RenderScene& out, ThreadPool& pool, ContentCache* cache)
+      : prepared_(prepared), scene_(*prepared.scene), out_(out), pool_(pool), cache_(cache) {}
 
   void add_all() {
     // World items first, so that ties between them go to the first one placed.
@@ -94,7 +95,7 @@ class ItemAdder {
   std::shared_ptr<const MeshAccel> mesh_accel(std::size_t index) {
     const std::shared_ptr<const TriangleMesh>& mesh = prepared_.meshes[index];
     auto& slot = meshes_[mesh.get()];
-    if (!slot) slot = std::make_shared<const MeshAccel>(mesh, pool_);
+    if (!slot) slot = made_accel(mesh, prepared_.mesh_keys[index]);
     out_.meshes[index] = slot->shared_mesh();
     return slot;
   }
@@ -107,6 +108,20 @@ class ItemAdder {
     }
     return slot;
   }
+  std::shared_ptr<const MeshAccel> made_accel(const std::shared_ptr<const TriangleMesh>& mesh,
+                                              const Hash128& mesh_key) {
+    if (cache_ == nullptr || mesh_key == Hash128{})
+      return std::make_shared<const MeshAccel>(mesh, pool_);
+    const Hash128 key = tree_key(mesh_key);
+    if (const auto entry = cache_->find(key)) {
+      if (auto accel = decode_tree(entry->bytes, mesh)) return accel;
+      cache_->refuse();
+    }
+    auto accel = std::make_shared<const MeshAccel>(mesh, pool_);
+    const EncodedTree encoded(*accel, *mesh);
+    cache_->store(key, encoded.pieces());
+    return accel;
+  }
   std::shared_ptr<const Revolve> revolve_accel(Id<ir::Revolve> id) {
     auto& slot = revolves_[id];
     if (!slot) slot = std::make_shared<Revolve>(revolve_of(scene_.shape(id)));
@@ -117,6 +132,7 @@ class ItemAdder {
   const ir::Scene& scene_;
   RenderScene& out_;
   ThreadPool& pool_;
+  ContentCache* cache_;
   // With an instance that replaces materials by a transparent one, any item may have to be asked.
   bool overridden_ = has_transparent_override();
   std::vector<std::uint32_t> first_of_proto_;
@@ -213,8 +229,9 @@ Revolve revolve_of(const ir::Revolve& r) {
       r.solver == ir::RevolveSolver::newton ? RootFinder::newton : RootFinder::certified);
 }
 
-void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& pool) {
-  ItemAdder(prepared, scene, pool).add_all();
+void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& pool,
+               ContentCache* cache) {
+  ItemAdder(prepared, scene, pool, cache).add_all();
 }
 
 }  // namespace scenec::backend

@@ -41,6 +41,8 @@ std::string located(const std::string& path, const AssetProblem& problem) {
 
 // Smaller files are decoded as fast as they are found in the cache.
 constexpr std::uint64_t smallest_cached_file = 64 * 1024;
+// Smaller trees are built as fast as they are found there.
+constexpr std::size_t smallest_cached_tree = 4096;
 
 // What is in the cache stands for the bytes whose hash it is kept under. Scenes made without the
 // front end have no hash.
@@ -50,6 +52,12 @@ std::optional<MeshData> find_cached(ContentCache& cache, const Hash128& key) {
   auto mesh = decode_mesh(entry->bytes);
   if (!mesh) cache.refuse();
   return mesh;
+}
+
+// Whatever the format: the key of what a reader makes of the file, zero without a hash of it.
+Hash128 file_key_of(const ir::Asset& asset) {
+  if (asset.hash == Hash128{}) return {};
+  return mesh_key(asset.hash, extension_of(asset.path), MeshLimits{});
 }
 
 std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, ContentCache* cache,
@@ -62,8 +70,8 @@ std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, Con
     return std::nullopt;
   }
   const MeshLimits limits;
-  if (asset.hash == Hash128{}) cache = nullptr;
-  const Hash128 key = mesh_key(asset.hash, extension, limits);
+  const Hash128 key = file_key_of(asset);
+  if (key == Hash128{}) cache = nullptr;
   if (cache != nullptr) {
     if (auto cached = find_cached(*cache, key)) return cached;
   }
@@ -134,6 +142,16 @@ std::vector<Span> spans_of_meshes(const ir::Scene& scene) {
   look(scene.items);
   for (const ir::Proto& proto : scene.protos) look(proto.items);
   return spans;
+}
+
+// What decides the positions and faces of a mesh. Its normals do not: a tree knows none of them.
+Hash128 key_of(const ir::Mesh& source, const Hash128& file_key) {
+  Hasher hasher;
+  hasher.add(file_key);
+  hasher.add(source.unit.value);
+  hasher.add(source.part.has_value());
+  hasher.add(std::string_view(source.part ? *source.part : std::string{}));
+  return hasher.result();
 }
 
 void take_report(MeshReport& report, TaskReport& task) {
@@ -227,8 +245,13 @@ void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::ve
   std::optional<MeshData> data = read_mesh(asset, files, cache, task);
   if (!data) return;
   FileMeshes meshes(std::move(*data), asset, group.meshes.size() == 1, task);
-  for (const std::size_t index : group.meshes)
-    prepared.meshes[index] = meshes.mesh_of(mesh_at(scene, index));
+  const Hash128 file_key = file_key_of(asset);
+  for (const std::size_t index : group.meshes) {
+    const ir::Mesh& source = mesh_at(scene, index);
+    prepared.meshes[index] = meshes.mesh_of(source);
+    if (file_key != Hash128{} && prepared.meshes[index]->faces.size() >= smallest_cached_tree)
+      prepared.mesh_keys[index] = key_of(source, file_key);
+  }
 }
 
 std::vector<ir::AssetId> images_of(const ir::Scene& scene) {
@@ -246,8 +269,9 @@ std::vector<ir::AssetId> images_of(const ir::Scene& scene) {
 
 PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
                     DiagnosticSink& sink, ContentCache* cache) {
-  PreparedPtr prepared(new PreparedScene{&scene, {}, {}});
+  PreparedPtr prepared(new PreparedScene{&scene, {}, {}, {}});
   prepared->meshes.resize(scene.table<ir::Mesh>().size());
+  prepared->mesh_keys.resize(prepared->meshes.size());
   prepared->images.resize(scene.assets.size());
   const std::vector<MeshGroup> groups = group_meshes(scene);
   const std::vector<ir::AssetId> images = images_of(scene);

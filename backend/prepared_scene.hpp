@@ -7,6 +7,7 @@
 
 #include "backend/geometry/mesh.hpp"
 #include "backend/image/image.hpp"
+#include "base/hash.hpp"
 #include "ir/scene.hpp"
 
 namespace scenec::backend {
@@ -14,6 +15,8 @@ namespace scenec::backend {
 struct PreparedScene {
   const ir::Scene* scene = nullptr;
   std::vector<std::shared_ptr<const TriangleMesh>> meshes;  // by Id<ir::Mesh>
+  // What each of them was made from; zero: no file worth keeping anything of.
+  std::vector<Hash128> mesh_keys;
   std::vector<std::shared_ptr<const DecodedImage>> images;  // by AssetId
 };
 

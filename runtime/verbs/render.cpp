@@ -139,7 +139,7 @@ class RenderRun {
 
   ExitCode render(const ir::Scene& scene, const ir::RenderSettings& settings,
                   const backend::PreparedScene& prepared, backend::ImageFormat format) {
-    const backend::RenderScenePtr built = backend::build(prepared, pool_);
+    const backend::RenderScenePtr built = backend::build(prepared, pool_, cache());
     clock_.finish("build");
     signals_.allow_graceful_stop();
     ProgressPrinter progress(progress_, environment_);
