@@ -36,12 +36,12 @@ std::string sheet_obj(int side) {
   return text + "f 1 1 2\n";
 }
 
-struct Run {
+struct Rendered {
   Picture picture;
   std::string warnings;
 };
 
-Run render_sheet(const std::string& obj, ContentCache* cache, ir::NormalMode normals) {
+Rendered render_sheet(const std::string& obj, ContentCache* cache, ir::NormalMode normals) {
   MemoryFileSystem files;
   files.put("sheet.obj", obj);
   SceneKit kit;
@@ -53,7 +53,7 @@ Run render_sheet(const std::string& obj, ContentCache* cache, ir::NormalMode nor
   const ir::Scene scene = kit.finish();
   DiagnosticSink sink;
   ThreadPool pool(2);
-  Run run;
+  Rendered run;
   const PreparedPtr prepared = prepare(scene, files, pool, sink, cache);
   for (const Diagnostic& d : sink.sorted()) run.warnings += d.message + "\n";
   EXPECT_TRUE(prepared) << run.warnings;
@@ -69,11 +69,11 @@ Run render_sheet(const std::string& obj, ContentCache* cache, ir::NormalMode nor
 TEST(mesh_cache, the_picture_is_the_same_to_the_bit) {
   const scenec::test::TemporaryDirectory directory;
   const std::string obj = sheet_obj(60);
-  const Run plain = render_sheet(obj, nullptr, ir::NormalMode::smooth);
+  const Rendered plain = render_sheet(obj, nullptr, ir::NormalMode::smooth);
   EXPECT_NE(plain.warnings.find("face without area"), std::string::npos);
   ContentCache cache({.directory = directory.path()});
-  for (const std::uint64_t hits : {0, 2, 4}) {
-    const Run run = render_sheet(obj, &cache, ir::NormalMode::smooth);
+  for (const std::uint64_t hits : {0U, 2U, 4U}) {
+    const Rendered run = render_sheet(obj, &cache, ir::NormalMode::smooth);
     EXPECT_EQ(run.picture.rgb, plain.picture.rgb);
     EXPECT_EQ(run.warnings, plain.warnings);
     EXPECT_EQ(cache.counts().hits, hits);
@@ -93,7 +93,7 @@ TEST(mesh_cache, damaged_entries_are_mended) {
   const scenec::test::TemporaryDirectory directory;
   const std::string obj = sheet_obj(60);
   ContentCache cache({.directory = directory.path()});
-  const Run plain = render_sheet(obj, &cache, ir::NormalMode::flat);
+  const Rendered plain = render_sheet(obj, &cache, ir::NormalMode::flat);
   for (const double share : {0.0, 0.4, 0.99}) {
     for (const auto& entry : fs::directory_iterator(directory.path())) {
       fs::resize_file(entry.path(),

@@ -112,7 +112,7 @@ const std::vector<Case> obj_cases{
     {"Empty", [] { return std::string(); }, "0: file is empty"},
 };
 INSTANTIATE_TEST_SUITE_P(Obj, HostileMesh, testing::ValuesIn(obj_cases),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 std::string ply(std::string_view format, std::string_view vertices, std::string_view faces,
                 std::string_view list = "uchar int") {
@@ -226,7 +226,7 @@ const std::vector<Case> ply_cases{
     {"Empty", [] { return std::string(); }, "0: file is empty", false},
 };
 INSTANTIATE_TEST_SUITE_P(Ply, HostileMesh, testing::ValuesIn(ply_cases),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 // What a fast path gives must be what the general one gives.
 std::string packed_sample(bool polygons) {
