@@ -83,7 +83,8 @@ std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, Con
     // The file may have changed since its hash was taken.
     if (cache != nullptr && content->bytes.size() >= smallest_cached_file &&
         hash_bytes(content->bytes) == asset.hash) {
-      cache->store(key, EncodedMesh(data.value()).pieces());
+      const EncodedMesh encoded(data.value());
+      cache->store(key, encoded.pieces());
     }
     return std::move(data).value();
   }

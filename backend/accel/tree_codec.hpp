@@ -24,7 +24,8 @@ class EncodedTree {
   EncodedTree(const MeshAccel& accel, const TriangleMesh& built_from);
   EncodedTree(const EncodedTree&) = delete;
   EncodedTree& operator=(const EncodedTree&) = delete;
-  [[nodiscard]] std::span<const std::string_view> pieces() const { return pieces_; }
+  [[nodiscard]] std::span<const std::string_view> pieces() const& { return pieces_; }
+  void pieces() && = delete;
 
  private:
   std::string head_;

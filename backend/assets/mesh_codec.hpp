@@ -25,7 +25,8 @@ class EncodedMesh {
   explicit EncodedMesh(const MeshData& mesh);
   EncodedMesh(const EncodedMesh&) = delete;
   EncodedMesh& operator=(const EncodedMesh&) = delete;
-  [[nodiscard]] std::span<const std::string_view> pieces() const { return pieces_; }
+  [[nodiscard]] std::span<const std::string_view> pieces() const& { return pieces_; }
+  void pieces() && = delete;
 
  private:
   std::string head_;

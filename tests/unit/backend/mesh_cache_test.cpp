@@ -108,8 +108,9 @@ TEST(mesh_cache, damaged_entries_are_mended) {
 }
 
 std::string bytes_of(const MeshAccel& accel, const TriangleMesh& mesh) {
+  const EncodedTree encoded(accel, mesh);
   std::string bytes;
-  for (const std::string_view piece : EncodedTree(accel, mesh).pieces()) bytes += piece;
+  for (const std::string_view piece : encoded.pieces()) bytes += piece;
   return bytes;
 }
 
