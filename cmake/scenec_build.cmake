@@ -32,6 +32,12 @@ if(SCENEC_SANITIZE)
   target_compile_options(scenec_options INTERFACE -fsanitize=${SCENEC_SANITIZE} -fno-omit-frame-pointer -g)
   target_link_options(scenec_options INTERFACE -fsanitize=${SCENEC_SANITIZE})
 endif()
+if(SCENEC_FUZZ)
+  # Coverage for libFuzzer in every library; a finding of a sanitizer ends the run.
+  # clang sees inside libstdc++ that some of it is deprecated.
+  target_compile_options(scenec_options INTERFACE
+    -fsanitize=fuzzer-no-link -fno-sanitize-recover=all -Wno-deprecated-declarations)
+endif()
 
 # Third-party headers are system headers: their warnings are not ours.
 function(scenec_library name)

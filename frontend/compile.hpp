@@ -53,6 +53,7 @@ struct CompileOptions {
   bool library = false;                     // accept a file of declarations alone
   bool camera_chosen = false;               // the caller picks one of several cameras
   std::uint64_t max_items = 2'000'000;
+  std::uint64_t max_steps = 500'000'000;  // of evaluation; one is about as dear as an addition
   SourceLimits source;
   FrontendCache* cache = nullptr;  // what earlier compilations have read
   ThreadPool* pool = nullptr;      // parses large files; none: the calling thread does

@@ -83,7 +83,7 @@ ir::OriginId Session::shared_origin(const ir::Origin& origin) {
 bool Session::exhausted(Span where) {
   if (!std::exchange(exhaustion_reported_, true)) {
     error(DiagnosticKind::too_many_steps, where,
-          fmt::format("evaluating the scene takes more than {} steps", max_evaluation_steps));
+          fmt::format("evaluating the scene takes more than {} steps", options.max_steps));
   }
   return false;
 }

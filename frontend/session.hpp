@@ -21,14 +21,14 @@
 
 namespace scenec::frontend {
 
-inline constexpr std::uint64_t max_evaluation_steps = 500'000'000;
 inline constexpr std::size_t max_list_elements = 2'000'000;
 inline constexpr std::size_t max_string_bytes = std::size_t{1} << 20;
 inline constexpr std::uint64_t max_asset_bytes = std::uint64_t{2} << 30;
-// Steps are meant to cost about as much as an addition. An element holds a cache line of memory, a
-// round of a loop and a call make a scope.
+// An element holds a cache line of memory, a round of a loop makes a scope, a call binds arguments
+// besides.
 inline constexpr std::uint64_t steps_per_list_element = 64;
 inline constexpr std::uint64_t steps_per_scope = 32;
+inline constexpr std::uint64_t steps_per_call = 128;
 
 class Session {
  public:
@@ -99,9 +99,9 @@ class Session {
   // False when the budget is used up (reported once); loops then end.
   bool spend(std::uint64_t steps, Span where) {
     steps_ += steps;
-    return steps_ <= max_evaluation_steps || exhausted(where);
+    return steps_ <= options.max_steps || exhausted(where);
   }
-  [[nodiscard]] bool out_of_steps() const { return steps_ > max_evaluation_steps; }
+  [[nodiscard]] bool out_of_steps() const { return steps_ > options.max_steps; }
   // Counts a placed item or light; false when there are too many (reported once).
   bool count_item(Span where);
   [[nodiscard]] std::uint64_t item_count() const { return items_; }

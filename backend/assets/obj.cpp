@@ -61,6 +61,10 @@ class ObjReader {
     pad(faces_.corner_uvs);
     if (auto problem = triangulate(std::move(faces_), limits_, mesh_))
       return Failure{std::move(*problem)};
+    // What no face names goes with no vertex: without an index table it would be taken for the
+    // attribute of the vertex in the same place.
+    if (mesh_.normal_triangles.empty()) mesh_.normals.clear();
+    if (mesh_.uv_triangles.empty()) mesh_.uvs.clear();
     return std::move(mesh_);
   }
 

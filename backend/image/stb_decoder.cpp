@@ -152,7 +152,27 @@ DecodeResult decode_tga(std::string_view bytes, const ImageLimits& limits) {
   return decode_bytes(source, "TGA", size.value());
 }
 
+namespace {
+
+// Whether a blank line ends the header and a line behind it says the size. stb takes the end of the
+// file for both when it asks for the size, and then waits for them for ever.
+bool hdr_header_is_whole(std::string_view bytes) {
+  std::size_t line = 0;
+  for (;;) {
+    const std::size_t end = bytes.find('\n', line);
+    if (end == std::string_view::npos) return false;
+    const bool is_blank = end == line || bytes[line] == '\0';
+    line = end + 1;
+    if (is_blank) return bytes.find('\n', line) != std::string_view::npos;
+  }
+}
+
+}  // namespace
+
 DecodeResult decode_hdr(std::string_view bytes, const ImageLimits& limits) {
+  if (!hdr_header_is_whole(bytes)) {
+    return Failure{AssetProblem{0, "damaged HDR: its header has no end"}};
+  }
   Source source{bytes};
   const Result<Size, AssetProblem> read = read_size(source, "HDR", sizeof(float), limits);
   if (!read) return Failure{read.error()};

@@ -21,14 +21,14 @@ constexpr Word make_word(Place place, std::string_view text, Role role, Values v
 
 constexpr std::array words = [] {
   using enum Values;
-  return std::array{
+  return std::to_array<Word>({
 // `Place::x` and the like: the rows name enumerators, some of which several enumerations share.
 #define SCENEC_COURSE_WORD(place, text, role, values, vocabulary, treat, reading, found)           \
   make_word(Place::place, text, Role::role, values, Vocabulary::vocabulary, Treat::treat, reading, \
             found),
 #include "frontend/course/words.def"
 #undef SCENEC_COURSE_WORD
-  };
+  });
 }();
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> reading_forms{

@@ -87,7 +87,7 @@ Binding parameter_binding(const ast::Item& parameter, Value value) {
 
 bool Evaluator::bind_arguments(NodeRef parameter_list, NodeRef arguments, NodeRef call,
                                std::string_view callee, Scope& caller, Scope& into) {
-  if (!session_.spend(steps_per_scope, call.span())) return false;
+  if (!session_.spend(steps_per_call, call.span())) return false;
   const std::vector<ast::Item> parameters = parameters_of(parameter_list);
   for (const ast::Item& parameter : parameters) {
     if (!parameter.name) return false;

@@ -45,7 +45,7 @@ void Lowering::if_chain(NodeRef node, Scope& scope, const Surroundings& around) 
     body(block, scope, around);
   };
   for (NodeRef at = node; at;) {
-    NodeRef next, otherwise;
+    NodeRef next;
     std::vector<NodeRef> blocks;
     for (NodeRef child : at.children()) {
       if (child.is(SyntaxKind::block)) blocks.push_back(child);

@@ -175,5 +175,21 @@ TEST(Obj, SurvivesRandomDamage) {
       sample, 20240601, 20'000, [](std::string_view bytes) { return read_obj(bytes).ok(); });
 }
 
+// Found by fuzz_mesh: the reader of normals went beyond their end.
+TEST(Obj, WhatNoFaceNamesIsNotInTheMesh) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
+  const auto plain = read_obj(vertices + "f 1 2 3\n");
+  ASSERT_TRUE(plain.ok());
+  EXPECT_TRUE(plain.value().normals.empty());
+  EXPECT_TRUE(plain.value().uvs.empty());
+  const auto named = read_obj(vertices + "f 1/1/1 2/1/1 3/1/1\n");
+  ASSERT_TRUE(named.ok());
+  EXPECT_EQ(named.value().normals.size(), 1u);
+  EXPECT_EQ(named.value().uvs.size(), 1u);
+  const auto dropped = read_obj(vertices + "f 1/1/1 1/1/1 1/1/1\n");
+  ASSERT_TRUE(dropped.ok());
+  EXPECT_TRUE(dropped.value().normals.empty());
+}
+
 }  // namespace
 }  // namespace scenec::backend

@@ -235,6 +235,17 @@ TEST(ReadImage, ReplacesAndCountsWhatIsNotFiniteInExr) {
             "EXR has no channels `R`, `G`, `B` or `Y`; it has `Z`");
 }
 
+// Found by fuzz_image: stb asked for the rest of such a header for ever.
+TEST(ReadImage, RefusesAnHdrHeaderWithoutAnEnd) {
+  const std::string start = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
+  EXPECT_EQ(problem_of(start), "damaged HDR: its header has no end");
+  EXPECT_EQ(problem_of(start + "-Y 1 +X 8\n"), "damaged HDR: its header has no end");
+  EXPECT_EQ(problem_of(start + "\n-Y 1 +X 8"), "damaged HDR: its header has no end");
+  EXPECT_EQ(problem_of("#?RADIANCE\n" + std::string(300, 'x') + "\n-Y 1 +X 8\n"),
+            "damaged HDR: its header has no end");
+  EXPECT_NE(problem_of("#?RADIANCE\n\n-Y 1 +X 8\n"), "read");
+}
+
 TEST(ReadImage, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(problem_of(""), "file is empty");
   EXPECT_EQ(problem_of("GIF89a......"),
