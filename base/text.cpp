@@ -27,7 +27,9 @@ std::string number_text(double value) {
 }
 
 std::string short_number_text(double value) {
-  return fmt::format("{:.6g}", value == 0 ? 0.0 : value);
+  constexpr double largest_in_full = 1e12;
+  const bool is_whole = std::abs(value) < largest_in_full && std::trunc(value) == value;
+  return is_whole ? fmt::format("{:.0f}", value == 0 ? 0.0 : value) : fmt::format("{:.6g}", value);
 }
 
 namespace {

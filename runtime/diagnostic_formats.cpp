@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 #include "runtime/cli.hpp"
 
@@ -103,11 +105,17 @@ std::string message_of(const Diagnostic& diagnostic) {
   return text;
 }
 
+// SARIF's lists of places and fixes hold nothing twice (3.27.22, 3.27.30).
+void push_once(Json& list, Json element) {
+  if (std::find(list.begin(), list.end(), element) == list.end())
+    list.push_back(std::move(element));
+}
+
 Json related_locations(const Diagnostic& diagnostic, const SourceMap& sources) {
   Json related = Json::array();
   const auto add = [&](Span span, std::string_view text) {
     const Span place = sources.resolve(span);
-    if (place.valid()) related.push_back(related_location(place, text, sources));
+    if (place.valid()) push_once(related, related_location(place, text, sources));
   };
   for (const Label& label : diagnostic.labels) add(label.span, label.text);
   for (const Note& note : diagnostic.notes) add(note.span, note.text);
@@ -124,7 +132,7 @@ Json fixes_of(const Diagnostic& diagnostic, const SourceMap& sources) {
     Json change{{"artifactLocation", artifact_of(fix.span, sources)}};
     change["replacements"] = Json::array({std::move(replacement)});
     Json changes = Json::array({std::move(change)});
-    fixes.push_back(Json{{"artifactChanges", std::move(changes)}});
+    push_once(fixes, Json{{"artifactChanges", std::move(changes)}});
   }
   return fixes;
 }

@@ -13,7 +13,7 @@ using grammar::SyntaxKind;
 
 namespace {
 
-constexpr std::array<TypeRef, 17> types{{
+constexpr std::array<TypeRef, 18> types{{
     {"num", Type::number, dimension::none},
     {"int", Type::integer, dimension::none},
     {"bool", Type::boolean, dimension::none},
@@ -31,14 +31,14 @@ constexpr std::array<TypeRef, 17> types{{
     {"curve", Type::curve, dimension::none},
     {"texture", Type::texture, dimension::none},
     {"material", Type::material, dimension::none},
+    {"proto", Type::proto, dimension::none},
 }};
-constexpr TypeRef proto_type{"proto", Type::proto, dimension::none};
 
 const TypeRef* find_type(std::string_view name) {
   for (const TypeRef& type : types) {
     if (type.name == name) return &type;
   }
-  return name == proto_type.name ? &proto_type : nullptr;
+  return nullptr;
 }
 
 std::string_view example_of(Dimension wanted) {
@@ -72,6 +72,12 @@ std::string text_of(const TypeRef& type) {
   return std::string(depth, '[') + std::string(type.name) + std::string(depth, ']');
 }
 
+std::vector<std::string_view> type_names() {
+  std::vector<std::string_view> names;
+  for (const TypeRef& type : types) names.push_back(type.name);
+  return names;
+}
+
 std::optional<TypeRef> read_type(Session& session, NodeRef node) {
   int depth = 0;
   while (node && node.is(SyntaxKind::type)) {
@@ -81,12 +87,9 @@ std::optional<TypeRef> read_type(Session& session, NodeRef node) {
         type.list_depth = depth;
         return type;
       }
-      std::array<std::string_view, types.size() + 1> names{};
-      for (std::size_t i = 0; i < types.size(); ++i) names[i] = types[i].name;
-      names.back() = proto_type.name;
       session.report(unknown_word(DiagnosticKind::unknown_type, name.span(),
                                   fmt::format("there is no type `{}`", printable(name.text())),
-                                  name.text(), names, "types"));
+                                  name.text(), type_names(), "types"));
       return std::nullopt;
     }
     node = node.find_child(SyntaxKind::type);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "frontend/eval/value.hpp"
 #include "frontend/session.hpp"
@@ -23,6 +24,7 @@ struct TypeRef {
 };
 inline constexpr TypeRef integer_type{"int", Type::integer, {}, false, 0};
 [[nodiscard]] std::string text_of(const TypeRef& type);
+[[nodiscard]] std::vector<std::string_view> type_names();
 // nullopt when the type does not exist (reported) or is missing (a syntax error, reported before).
 [[nodiscard]] std::optional<TypeRef> read_type(Session& session, grammar::NodeRef node);
 // A value of that type with nothing else known.

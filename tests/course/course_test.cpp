@@ -15,6 +15,8 @@
 #include "base/parallel.hpp"
 #include "base/source_map.hpp"
 #include "frontend/compile.hpp"
+#include "frontend/format/formatter.hpp"
+#include "ir/dump.hpp"
 #include "tests/course/corpus_index.hpp"
 #include "tests/golden/runner.hpp"
 #include "tests/support/overlay_file_system.hpp"
@@ -146,6 +148,7 @@ class Compiled {
     if (!path.ends_with(".sdl")) options.dialect = scenec::grammar::Dialect::course;
     const auto file = scenec::frontend::load(path, options, files, sources_, sink_);
     if (file) scene_ = scenec::frontend::compile(*file, options, files, sources_, sink_);
+    if (file) formatted_text_ = scenec::frontend::format(file->tree);
     // Once more as `convert` does it: with paths relative to the working directory.
     scenec::DiagnosticSink ignored;
     const auto written = scenec::frontend::load(path, options, files, sources_, ignored, "");
@@ -153,6 +156,7 @@ class Compiled {
   }
   [[nodiscard]] const std::optional<scenec::ir::Scene>& scene() const { return scene_; }
   [[nodiscard]] const std::string& native_text() const { return native_text_; }
+  [[nodiscard]] const std::string& formatted_text() const { return formatted_text_; }
   [[nodiscard]] std::string messages() const {
     std::string text;
     for (const scenec::Diagnostic& diagnostic : sink_.sorted()) text += diagnostic.message + "\n";
@@ -178,6 +182,7 @@ class Compiled {
   scenec::SourceMap sources_;
   scenec::DiagnosticSink sink_;
   std::string native_text_;
+  std::string formatted_text_;
   std::optional<scenec::ir::Scene> scene_;
 };
 
@@ -202,6 +207,31 @@ TEST_F(Corpus, AConvertedSceneIsTheSameScene) {
   }
   fmt::print("{} scenes converted, {} of them rendered both ways\n", converted, rendered);
   EXPECT_GE(converted, 19 + 70);
+}
+
+TEST_F(Corpus, PrintedAndFormattedScenesAreTheSameScene) {
+  int compared = 0;
+  for (const CourseScene& scene : scenes_) {
+    if (scene.expected == CourseClass::broken || !scene.absent_assets.empty()) continue;
+    fs::current_path(course_ / scene.folder);
+    scenec::RealFileSystem disk;
+    const Compiled first(disk, scene.path);
+    if (!first.scene()) continue;
+    ++compared;
+    const std::string hash = first.scene()->hash.hex();
+    const std::string printed = scenec::ir::dump_text(*first.scene(), {});
+    scenec::test::OverlayFileSystem with_print("printed.sdl", printed);
+    const Compiled again(with_print, "printed.sdl");
+    ASSERT_TRUE(again.scene()) << scene.name() << "\n" << again.messages();
+    EXPECT_EQ(again.scene()->hash.hex(), hash) << scene.name();
+    EXPECT_EQ(scenec::ir::dump_text(*again.scene(), {}), printed) << scene.name();
+    scenec::test::OverlayFileSystem with_layout(scene.path, first.formatted_text());
+    const Compiled laid_out(with_layout, scene.path);
+    ASSERT_TRUE(laid_out.scene()) << scene.name() << "\n" << laid_out.messages();
+    EXPECT_EQ(laid_out.scene()->hash.hex(), hash) << scene.name();
+  }
+  fmt::print("{} scenes printed and formatted\n", compared);
+  EXPECT_GE(compared, 19 + 70);
 }
 
 // The pixel bytes of a 24-bit BMP behind its header.

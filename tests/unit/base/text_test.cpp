@@ -67,7 +67,10 @@ TEST(ShortNumberText, IsForPeople) {
   EXPECT_EQ(short_number_text(-0.0), "0");
   EXPECT_EQ(short_number_text(0.1 + 0.2), "0.3");
   EXPECT_EQ(short_number_text(-2.5), "-2.5");
-  EXPECT_EQ(short_number_text(1234567), "1.23457e+06");
+  EXPECT_EQ(short_number_text(1048576), "1048576");
+  EXPECT_EQ(short_number_text(-999999999999.0), "-999999999999");
+  EXPECT_EQ(short_number_text(1e12), "1e+12");
+  EXPECT_EQ(short_number_text(1234567.5), "1.23457e+06");
 }
 
 TEST(ParseDouble, short_decimals_are_rounded_as_from_chars_rounds_them) {

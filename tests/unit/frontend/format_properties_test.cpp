@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <random>
 
-#include "tests/support/paths.hpp"
+#include "tests/support/scenes.hpp"
 #include "tests/unit/frontend/format_support.hpp"
 
 namespace scenec::frontend::test {
@@ -26,20 +24,9 @@ struct Scene {
 };
 
 std::vector<Scene> scenes_of_the_tree() {
-  std::vector<fs::path> paths;
-  for (const char* const folder : {"tests", "stdlib-scenes"}) {
-    for (const auto& entry :
-         fs::recursive_directory_iterator(scenec::test::source_directory() / folder)) {
-      const std::string extension = entry.path().extension().string();
-      const bool is_scene = extension == ".sdl" || extension == ".txt";
-      if (is_scene && entry.path().filename() != "CMakeLists.txt") paths.push_back(entry.path());
-    }
-  }
-  std::sort(paths.begin(), paths.end());
   std::vector<Scene> scenes;
-  for (const fs::path& path : paths) {
-    std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  for (const fs::path& path : scenec::test::scenes_beneath({"tests", "stdlib-scenes"})) {
+    std::string text = scenec::test::text_of_file(path);
     if (text.size() > 200'000) continue;
     const Dialect dialect = grammar::dialect_of(path.string(), text);
     scenes.push_back({path.string(), std::move(text), dialect});

@@ -5,36 +5,18 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iostream>
-#include <iterator>
 
 #include "frontend/compile.hpp"
 #include "tests/support/overlay_file_system.hpp"
-#include "tests/support/paths.hpp"
+#include "tests/support/scenes.hpp"
 #include "tests/unit/frontend/format_support.hpp"
 
 namespace scenec::frontend::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-std::vector<fs::path> scenes_beneath(const fs::path& folder) {
-  std::vector<fs::path> paths;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string extension = entry.path().extension().string();
-    const bool is_scene = extension == ".sdl" || extension == ".txt";
-    if (is_scene && entry.path().filename() != "CMakeLists.txt") paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
 
 std::string hash_of(const fs::path& path, const std::string& text) {
   scenec::test::OverlayFileSystem files(path.string(), text);
@@ -48,16 +30,14 @@ std::string hash_of(const fs::path& path, const std::string& text) {
 
 TEST(FormatScenes, TheHashOfTheSceneStays) {
   int compared = 0;
-  for (const char* const folder : {"tests", "stdlib-scenes"}) {
-    for (const fs::path& path : scenes_beneath(scenec::test::source_directory() / folder)) {
-      const std::string text = read_text(path);
-      const auto after = formatted(text, grammar::dialect_of(path.string(), text));
-      if (!after) continue;
-      const std::string hash = hash_of(path, text);
-      if (hash.empty()) continue;
-      EXPECT_EQ(hash_of(path, *after), hash) << path;
-      ++compared;
-    }
+  for (const fs::path& path : scenec::test::scenes_beneath({"tests", "stdlib-scenes"})) {
+    const std::string text = scenec::test::text_of_file(path);
+    const auto after = formatted(text, grammar::dialect_of(path.string(), text));
+    if (!after) continue;
+    const std::string hash = hash_of(path, text);
+    if (hash.empty()) continue;
+    EXPECT_EQ(hash_of(path, *after), hash) << path;
+    ++compared;
   }
   std::cout << compared << " scenes have the same hash\n";
   EXPECT_GT(compared, 10);
@@ -65,11 +45,10 @@ TEST(FormatScenes, TheHashOfTheSceneStays) {
 
 TEST(FormatScenes, Goldens) {
   int compared = 0;
-  for (const fs::path& path :
-       scenes_beneath(scenec::test::source_directory() / "tests" / "golden" / "format")) {
-    const std::string text = read_text(path);
+  for (const fs::path& path : scenec::test::scenes_beneath({"tests/golden/format"})) {
+    const std::string text = scenec::test::text_of_file(path);
     const grammar::Dialect dialect = grammar::dialect_of(path.string(), text);
-    const std::string expected = read_text(path.string() + ".expected");
+    const std::string expected = scenec::test::text_of_file(path.string() + ".expected");
     EXPECT_EQ(formatted(text, dialect), expected) << path;
     EXPECT_EQ(formatted(expected, dialect), expected) << path;
     ++compared;

@@ -93,6 +93,18 @@ TEST_F(DiagnosticFormats, ASarifLogHasRulesPlacesAndFixes) {
   EXPECT_EQ(count(R"("startColumn": 4)"), 4);
 }
 
+TEST_F(DiagnosticFormats, SarifListsHoldNothingTwice) {
+  const Finding finding{Diagnostic(DiagnosticKind::shadowed_name, x_, "m")
+                            .note("expanded from `f` here", {file_, 0, 3})
+                            .note("expanded from `f` here", {file_, 0, 3})
+                            .fix(x_, "y")
+                            .fix(x_, "y"),
+                        Severity::warning};
+  const std::string log = sarif_log({&finding, 1}, sources_);
+  EXPECT_EQ(log.find("expanded from"), log.rfind("expanded from")) << log;
+  EXPECT_EQ(log.find("insertedContent"), log.rfind("insertedContent")) << log;
+}
+
 TEST_F(DiagnosticFormats, AnAbsolutePathBecomesAFileUri) {
   const FileId file = sources_.add("/tmp/a b.sdl", std::string("x"));
   const Finding finding{Diagnostic(DiagnosticKind::no_light, {file, 0, 1}, "m"), Severity::warning};

@@ -105,6 +105,37 @@ TEST_F(Fmt, DiffShowsWhatWouldChange) {
   EXPECT_EQ(run_fmt({"--diff", "--check", path}), ExitCode::scene_error);
 }
 
+TEST_F(Fmt, CourseFilesStayCourseText) {
+  const std::string text = "# desk\nMaterials{numMaterials 1 Material{diffuseColor 1 1 1}}\n";
+  const std::string laid_out =
+      "# desk\nMaterials { numMaterials 1 Material { diffuseColor 1 1 1 } }\n";
+  const std::string path = put("a.txt", text);
+  EXPECT_EQ(run_fmt({"--check", path}), ExitCode::scene_error);
+  EXPECT_EQ(out_.str(), path + "\n");
+  EXPECT_EQ(run_fmt({"--diff", path}), ExitCode::ok);
+  EXPECT_NE(out_.str().find("@@ -1,2 +1,2 @@\n # desk\n-Materials{"), std::string::npos)
+      << out_.str();
+  EXPECT_EQ(text_of(path), text);
+  EXPECT_EQ(run_fmt({path}), ExitCode::ok);
+  EXPECT_EQ(text_of(path), laid_out);
+  EXPECT_EQ(run_fmt({"--check", "--diff", path}), ExitCode::ok);
+  EXPECT_EQ(out_.str() + err_.str(), "");
+  // The dialect is that of the text, whatever the name, and can be said.
+  const std::string native = put("b.txt", "sdl 1;\nlet  a=1;\n");
+  EXPECT_EQ(run_fmt({native}), ExitCode::ok);
+  EXPECT_EQ(text_of(native), canonical);
+}
+
+TEST_F(Fmt, DiffsOfSeveralFilesFollowEachOther) {
+  const std::string first = put("a.sdl", plain);
+  const std::string second = put("b.sdl", canonical);
+  const std::string third = put("c.sdl", "sdl 1;\r\nlet a = 1;\r\n");
+  EXPECT_EQ(run_fmt({"--diff", "--check", first, second, third}), ExitCode::scene_error);
+  EXPECT_NE(out_.str().find("--- " + first), std::string::npos);
+  EXPECT_EQ(out_.str().find(second), std::string::npos);
+  EXPECT_NE(out_.str().find("--- " + third), std::string::npos);
+}
+
 TEST_F(Fmt, FilesThatCannotBeRead) {
   EXPECT_EQ(run_fmt({(directory_ / "none.sdl").string()}), ExitCode::file_error);
   EXPECT_EQ(run_fmt({directory_.string()}), ExitCode::file_error);
