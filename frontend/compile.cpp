@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "frontend/check/check_scene.hpp"
 #include "frontend/course/translate.hpp"
+#include "frontend/dialect_check.hpp"
 #include "frontend/frontend_cache.hpp"
 #include "frontend/lower/lowering.hpp"
 #include "frontend/part_reader.hpp"
@@ -61,6 +62,15 @@ std::optional<LoadedFile> load(const std::string& path, const CompileOptions& op
   loaded.dialect = options.dialect.value_or(grammar::dialect_of(path, text));
   loaded.file = sources.add(path, text, content.value().owner);
   loaded.identity = content.value().identity;
+  const auto wrong =
+      options.dialect ? std::nullopt : find_wrong_dialect(loaded.file, text, loaded.dialect);
+  if (wrong) {
+    sink.report(*wrong);
+    DiagnosticSink consequences;
+    loaded.dialect = grammar::Dialect::sdl;
+    loaded.tree = grammar::parse_sdl(loaded.file, {}, consequences);
+    return loaded;
+  }
   if (loaded.dialect == grammar::Dialect::sdl) {
     loaded.unparsed = load_tree == LoadTree::unless_large && text.size() >= options.read_in_parts;
     if (loaded.unparsed) return loaded;

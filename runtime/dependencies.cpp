@@ -68,6 +68,23 @@ std::vector<std::string> dependency_targets_of(const Options& options) {
   return {output_of(options)};
 }
 
+bool SharedDependencies::join(const std::vector<FileRecord>& records) {
+  bool grew = false;
+  for (const FileRecord& record : records) {
+    const auto same = std::find_if(files.begin(), files.end(), [&](const FileRecord& other) {
+      return other.path == record.path;
+    });
+    if (same == files.end()) {
+      files.push_back(record);
+      grew = true;
+    } else if (record.found && !same->found) {
+      same->found = true;
+      grew = true;
+    }
+  }
+  return grew;
+}
+
 Result<std::string, std::string> dependency_text(const DependencyRule& rule) {
   std::string text;
   for (const std::string& target : rule.targets) {

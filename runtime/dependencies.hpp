@@ -19,6 +19,15 @@ namespace scenec::runtime {
 // `-MT`, or the output.
 [[nodiscard]] std::vector<std::string> dependency_targets_of(const Options& options);
 
+// What the runs of one `--frames` put into one dependency file.
+struct SharedDependencies {
+  std::vector<std::string> targets;  // the pictures of all frames, or `-MT`
+  std::vector<FileRecord> files;     // in order of their first use
+  bool written = false;
+  // Adds what is new; whether there was any.
+  bool join(const std::vector<FileRecord>& records);
+};
+
 struct DependencyRule {
   std::vector<std::string> targets;
   std::string scene;

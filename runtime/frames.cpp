@@ -47,10 +47,16 @@ Options options_in_frame(const Options& options, std::int64_t frame) {
   Options result = options;
   result.frame = frame;
   result.output = path_in_frame(output_of(options), frame);
-  for (std::string* const path : {&result.stats_file, &result.dependency_file}) {
-    if (!path->empty()) *path = path_in_frame(*path, frame);
+  if (!result.stats_file.empty()) result.stats_file = path_in_frame(result.stats_file, frame);
+  if (!result.dependency_file.empty() && !share_dependencies(options)) {
+    result.dependency_file = path_in_frame(result.dependency_file, frame);
   }
   return result;
+}
+
+bool share_dependencies(const Options& options) {
+  const std::string& path = options.dependency_file;
+  return options.frames && !path.empty() && path.find('#', path.rfind('/') + 1) == path.npos;
 }
 
 std::optional<std::string> find_frame_problem(const Options& options) {

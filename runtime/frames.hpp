@@ -25,8 +25,11 @@ inline constexpr std::int64_t largest_frame_rate = 100'000;
 // The last run of `#` in the file's name becomes the number in at least so many digits; without one
 // four digits come before the extension: `out.0001.png`.
 [[nodiscard]] std::string path_in_frame(const std::string& path, std::int64_t frame);
-// The options of one frame: every file that is written carries the frame's number.
+// The options of one frame: every file that is written carries the frame's number, but for a
+// dependency file that all frames share.
 [[nodiscard]] Options options_in_frame(const Options& options, std::int64_t frame);
+// Whether `-MF` names one file for all frames: a name without `#`, as build tools expect it.
+[[nodiscard]] bool share_dependencies(const Options& options);
 // What the frame options lack or contradict.
 [[nodiscard]] std::optional<std::string> find_frame_problem(const Options& options);
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "ir/verify.hpp"
 
 namespace scenec::runtime {
 
 namespace {
 
 constexpr std::int64_t largest_side = 65535;
-constexpr std::int64_t largest_pixel_count = std::int64_t{1} << 28;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -67,8 +67,8 @@ Parsed<ir::ImageSize> parse_size(std::string_view text) {
     return side && *side >= 1 && *side <= largest_side;
   };
   if (!is_side(width) || !is_side(height)) return Failure{expected};
-  if (*width * *height > largest_pixel_count) {
-    return Failure{fmt::format("at most {} pixels in all", largest_pixel_count)};
+  if (*width * *height > ir::largest_pixel_count) {
+    return Failure{fmt::format("at most {} pixels in all", ir::largest_pixel_count)};
   }
   return ir::ImageSize{*width, *height};
 }

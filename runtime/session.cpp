@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <utility>
 
 #include "base/render_diagnostic.hpp"
 #include "runtime/dependencies.hpp"
@@ -163,10 +164,15 @@ bool Session::write_dependencies() {
   if (!options_.dependencies || !loaded_) return true;
   const std::string path = dependency_file_of(options_);
   if (!check_output_is_no_input(path, *this)) return false;
+  if (shared_ != nullptr) {
+    const bool grew = shared_->join(files_.records());
+    const bool was_written = std::exchange(shared_->written, true);
+    if (was_written && !grew && !has_errors()) return true;
+  }
   const Result<std::string, std::string> text =
-      dependency_text({.targets = dependency_targets_of(options_),
+      dependency_text({.targets = shared_ ? shared_->targets : dependency_targets_of(options_),
                        .scene = scene_path_,
-                       .files = files_.records(),
+                       .files = shared_ ? shared_->files : files_.records(),
                        .phony = options_.phony_dependencies,
                        .complete = !has_errors()});
   if (text.ok()) return write_output(path, text.value(), sink_);

@@ -14,6 +14,7 @@
 #include "base/source_map.hpp"
 #include "frontend/compile.hpp"
 #include "ir/scene.hpp"
+#include "runtime/dependencies.hpp"
 #include "runtime/diagnostic_formats.hpp"
 #include "runtime/environment.hpp"
 #include "runtime/exit_codes.hpp"
@@ -54,6 +55,8 @@ class Session {
   // and, for people, a line that counts; returns the exit code it calls for.
   // Lints in `told` have been printed by another run and are left out; the others join them.
   void leave_out(std::set<std::string>& told) { told_ = &told; }
+  // Writes into one dependency file with other runs.
+  void share_dependencies(SharedDependencies& dependencies) { shared_ = &dependencies; }
   [[nodiscard]] ExitCode finish(const Environment& environment);
   // For what goes wrong after finish() has printed.
   void print_late(const Diagnostic& diagnostic, const Environment& environment) const;
@@ -67,6 +70,7 @@ class Session {
   frontend::CompileOptions compile_options_;
   std::string scene_path_;
   std::set<std::string>* told_ = nullptr;
+  SharedDependencies* shared_ = nullptr;
   bool loaded_ = false;
   bool scene_unreadable_ = false;
   RootedFileSystem disk_;

@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "frontend/check/invertible.hpp"
 #include "frontend/eval/operators.hpp"
+#include "ir/verify.hpp"
 
 namespace scenec::frontend {
 
@@ -219,7 +220,11 @@ bool convert(const KeyContext& key, const Value& value, ir::ImageSize& out) {
   std::array<std::int64_t, 2> size{};
   if (!convert(key, value, size)) return false;
   out = {size[0], size[1]};
-  return true;
+  if (size[0] * size[1] <= ir::largest_pixel_count) return true;  // each is in its range
+  key.session.error(DiagnosticKind::out_of_range, key.need.span(),
+                    fmt::format("{} is {} x {} pixels; needs at most {} in all", key.need.text(),
+                                size[0], size[1], ir::largest_pixel_count));
+  return false;
 }
 
 bool convert(const KeyContext& key, const Value& value, ir::Region& out) {

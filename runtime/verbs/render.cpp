@@ -71,6 +71,7 @@ ProgressStyle progress_style_of(const Options& options) {
 struct Sequence {
   std::vector<std::string> unguarded;  // outputs that have not been compared with the inputs
   std::set<std::string> told;          // lints that have been printed
+  std::optional<SharedDependencies> dependencies;
 };
 
 class RenderRun {
@@ -88,6 +89,7 @@ class RenderRun {
         pool_(static_cast<unsigned>(options.threads.value_or(0))) {
     if (auto kept = cache_options_of(options, environment)) cache_.emplace(std::move(*kept));
     session_.leave_out(sequence.told);
+    if (sequence.dependencies) session_.share_dependencies(*sequence.dependencies);
   }
 
   ExitCode run() {
@@ -239,6 +241,11 @@ ExitCode verbs::render(const Options& options, const Environment& environment) {
   Sequence sequence;
   if (!options.frames) return RenderRun(options, environment, sequence).run();
   if (!frames_are_writable(options, sequence, environment)) return ExitCode::file_error;
+  if (share_dependencies(options)) {
+    const bool are_named = !options.dependency_targets.empty();
+    sequence.dependencies.emplace();
+    sequence.dependencies->targets = are_named ? options.dependency_targets : sequence.unguarded;
+  }
   for (std::int64_t frame = options.frames->first; frame <= options.frames->last; ++frame) {
     const Options one = options_in_frame(options, frame);
     const ExitCode code = RenderRun(one, environment, sequence).run();

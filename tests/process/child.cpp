@@ -1,6 +1,7 @@
 #include "tests/process/child.hpp"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -80,6 +82,10 @@ ChildResult Child::wait() {
   ChildResult result;
   result.seconds = now_in_seconds() - start_;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  const auto seconds_of = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+  };
+  result.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   result.peak_mebibytes = static_cast<double>(usage.ru_maxrss) / 1024;
   if (!out_.empty()) result.out = bytes_of(out_);
   result.err = bytes_of(err_);
@@ -91,6 +97,28 @@ ChildResult Child::wait() {
 
 ChildResult run_child(const std::vector<std::string>& words, const ChildOptions& options) {
   return Child(words, options).wait();
+}
+
+void expect_bounded(const ChildResult& result, const std::string& name) {
+  constexpr double most_seconds = 2;
+  constexpr double most_seconds_of_waiting = 30;
+  constexpr double most_mebibytes = 256;
+  std::printf("%s: exit %d, %.2f s, %.0f MiB\n", name.c_str(), result.exit_code, result.cpu_seconds,
+              result.peak_mebibytes);
+  if (SCENEC_IS_SANITIZED) return;
+  EXPECT_LE(result.cpu_seconds, most_seconds) << name;
+  EXPECT_LE(result.seconds, most_seconds_of_waiting) << name;
+  EXPECT_LE(result.peak_mebibytes, most_mebibytes) << name;
+}
+
+int located_errors(const std::string& messages, const std::string& name) {
+  int count = 0;
+  for (std::size_t at = messages.find(": error[E"); at != std::string::npos;
+       at = messages.find(": error[E", at + 1)) {
+    const std::size_t line = messages.rfind('\n', at) + 1;  // npos + 1 is 0
+    if (messages.compare(line, name.size() + 1, name + ":") == 0) ++count;
+  }
+  return count;
 }
 
 Sandbox::Sandbox() {

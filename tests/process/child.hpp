@@ -21,6 +21,7 @@ struct ChildResult {
   std::string out;
   std::string err;
   double seconds = 0;
+  double cpu_seconds = 0;  // of all threads; other than `seconds` no matter of what else runs
   double peak_mebibytes = 0;
 };
 
@@ -39,6 +40,13 @@ class Child {
 
 [[nodiscard]] ChildResult run_child(const std::vector<std::string>& words,
                                     const ChildOptions& options = {});
+
+// What no input may exceed: 2 s of work and 256 MiB (B01-B24 of the reliability rules). The clock
+// on the wall is given more, since tests share their machine. Nothing is asked of sanitized builds.
+void expect_bounded(const ChildResult& result, const std::string& name);
+
+// Errors `NAME:line:column: error[E....]` in messages.
+[[nodiscard]] int located_errors(const std::string& messages, const std::string& name);
 
 // An empty directory that vanishes with its owner.
 class Sandbox {

@@ -1,5 +1,4 @@
 // Files made to break a reader: each compiles or is one located error within 2 s and 256 MiB.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -15,25 +14,12 @@ using scenec::test::Sandbox;
 
 enum class Outcome { compiles, one_error };
 
-constexpr double most_seconds = 2;
-constexpr double most_mebibytes = 256;
-
 // Everything is written to the file piece by piece: the memory of this process at the time of the
 // fork counts as memory of the child.
 using Writer = std::function<void(std::ostream&)>;
 
 void repeat(std::ostream& out, const std::string& text, int count) {
   for (int i = 0; i < count; ++i) out << text;
-}
-
-int located_errors(const std::string& messages, const std::string& name) {
-  int count = 0;
-  for (std::size_t at = messages.find(": error[E"); at != std::string::npos;
-       at = messages.find(": error[E", at + 1)) {
-    const std::size_t line = messages.rfind('\n', at) + 1;  // npos + 1 is 0
-    if (messages.compare(line, name.size() + 1, name + ":") == 0) ++count;
-  }
-  return count;
 }
 
 void expect(const std::string& name, Outcome outcome, const Writer& write) {
@@ -51,15 +37,10 @@ void expect(const std::string& name, Outcome outcome, const Writer& write) {
     EXPECT_TRUE(result.exit_code == 1 || result.exit_code == 4)
         << name << " " << result.exit_code << "\n"
         << shown;
-    EXPECT_EQ(located_errors(result.err, name), 1) << name << "\n" << shown;
+    EXPECT_EQ(scenec::test::located_errors(result.err, name), 1) << name << "\n" << shown;
     EXPECT_LT(result.err.size(), 4000u) << name;
   }
-  if (!SCENEC_IS_SANITIZED) {
-    EXPECT_LE(result.seconds, most_seconds) << name;
-    EXPECT_LE(result.peak_mebibytes, most_mebibytes) << name;
-  }
-  fmt::print("{}: exit {}, {:.2f} s, {:.0f} MiB\n", name, result.exit_code, result.seconds,
-             result.peak_mebibytes);
+  scenec::test::expect_bounded(result, name);
 }
 
 const std::string head = "sdl 1;\n";
