@@ -8,8 +8,6 @@ namespace scenec::backend {
 namespace {
 
 constexpr int max_bins = 32;
-// From here on runs are halved: 32 further levels hold any 32-bit count.
-constexpr int depth_of_heuristic = max_binary_depth - 33;
 
 struct Bins {
   std::array<std::array<FloatBox, max_bins>, 3> boxes;
@@ -40,12 +38,6 @@ struct Binning {
   }
 };
 
-struct Split {
-  int axis = -1;
-  int bin = 0;  // the last of the left side
-  float cost = FloatBox::infinity;
-};
-
 void fill(std::span<const BuildRef> refs, const Binning& binning, Bins& bins) {
   const auto count = static_cast<std::size_t>(binning.bins);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -69,7 +61,7 @@ float blocks_of(std::size_t count, std::uint32_t width) {
 }
 
 void try_axis(const Bins& bins, const Binning& binning, int axis, std::size_t total,
-              std::uint32_t width, Split& best) {
+              std::uint32_t width, ObjectSplit& best) {
   if (binning.scale[axis] == 0) return;
   const auto a = static_cast<std::size_t>(axis);
   std::array<float, max_bins> right_cost{};
@@ -88,26 +80,12 @@ void try_axis(const Bins& bins, const Binning& binning, int axis, std::size_t to
     count += bins.counts[a][i];
     if (count == 0 || count == total) continue;
     const float cost = side.half_area() * blocks_of(count, width) + right_cost[i + 1];
-    if (cost < best.cost) best = {axis, static_cast<int>(i), cost};
-  }
-}
-
-// Reorders the run and measures its sides' centres.
-std::size_t partition(std::span<BuildRef> refs, const Binning& binning, const Split& split,
-                      FloatBox& left_centers, FloatBox& right_centers) {
-  std::size_t i = 0;
-  std::size_t j = refs.size();
-  while (i < j) {
-    const Float4 center = center_of(box_of(refs[i]));
-    if (binning.of(center)[split.axis] <= split.bin) {
-      left_centers.grow(center);
-      ++i;
-    } else {
-      right_centers.grow(center);
-      std::swap(refs[i], refs[--j]);
+    if (cost < best.cost) {
+      best.axis = axis;
+      best.bin = static_cast<int>(i);
+      best.cost = cost;
     }
   }
-  return i;
 }
 
 void measure(std::span<const BuildRef> refs, BuildRange& range) {
@@ -144,25 +122,52 @@ bool split_range(std::span<BuildRef> refs, const BuildRange& range, const BuildS
     halve(refs, range, left, right);
     return true;
   }
-  const Binning binning(range);
-  Bins bins;
-  fill(own, binning, bins);
-  Split best;
-  for (int axis = 0; axis < 3; ++axis)
-    try_axis(bins, binning, axis, range.count, settings.block_width, best);
+  const ObjectSplit best = best_object_split(own, range, settings.block_width);
   if (best.axis < 0) {
     halve(refs, range, left, right);
     return true;
   }
-  left = {range.first, 0, range.depth + 1, {}, {}};
-  right = {0, 0, range.depth + 1, {}, {}};
-  left.count = partition(own, binning, best, left.centers, right.centers);
+  left = {range.first, 0, range.depth + 1, best.left, {}};
+  right = {0, 0, range.depth + 1, best.right, {}};
+  left.count = partition_run(own, range, best, left.centers, right.centers);
   right.first = range.first + left.count;
   right.count = range.count - left.count;
+  return true;
+}
+
+ObjectSplit best_object_split(std::span<const BuildRef> refs, const BuildRange& range,
+                              std::uint32_t block_width) {
+  const Binning binning(range);
+  Bins bins;
+  fill(refs, binning, bins);
+  ObjectSplit best;
+  best.bins = binning.bins;
+  for (int axis = 0; axis < 3; ++axis)
+    try_axis(bins, binning, axis, range.count, block_width, best);
+  if (best.axis < 0) return best;
   const auto& boxes = bins.boxes[static_cast<std::size_t>(best.axis)];
   for (int i = 0; i < binning.bins; ++i)
-    (i <= best.bin ? left : right).box.grow(boxes[static_cast<std::size_t>(i)]);
-  return true;
+    (i <= best.bin ? best.left : best.right).grow(boxes[static_cast<std::size_t>(i)]);
+  return best;
+}
+
+std::size_t partition_run(std::span<BuildRef> refs, const BuildRange& range,
+                          const ObjectSplit& split, FloatBox& left_centers,
+                          FloatBox& right_centers) {
+  const Binning binning(range);
+  std::size_t i = 0;
+  std::size_t j = refs.size();
+  while (i < j) {
+    const Float4 center = center_of(box_of(refs[i]));
+    if (binning.of(center)[split.axis] <= split.bin) {
+      left_centers.grow(center);
+      ++i;
+    } else {
+      right_centers.grow(center);
+      std::swap(refs[i], refs[--j]);
+    }
+  }
+  return i;
 }
 
 namespace {

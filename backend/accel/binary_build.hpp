@@ -28,6 +28,24 @@ struct BuildRange {
   FloatBox centers;  // of the doubled centres
 };
 
+// A way to divide a run by the centres of its boxes.
+struct ObjectSplit {
+  int axis = -1;  // -1: there is none
+  int bins = 0;
+  int bin = 0;  // the last of the left side
+  float cost = FloatBox::infinity;
+  FloatBox left;
+  FloatBox right;
+};
+[[nodiscard]] ObjectSplit best_object_split(std::span<const BuildRef> refs, const BuildRange& range,
+                                            std::uint32_t block_width);
+// Reorders the run; the number of references on the left.
+std::size_t partition_run(std::span<BuildRef> refs, const BuildRange& range,
+                          const ObjectSplit& split, FloatBox& left_centers,
+                          FloatBox& right_centers);
+// From here on runs are halved: 32 further levels hold any 32-bit count.
+inline constexpr int depth_of_heuristic = max_binary_depth - 33;
+
 [[nodiscard]] BuildRange whole_range(std::span<const BuildRef> refs);
 
 // Splits the run in two and reorders it; false when it is to be a leaf.

@@ -12,26 +12,21 @@ constexpr double slack = 0x1p-21;         // of the test, in units of (1 + |o|) 
 constexpr double move_slack = 0x1p-49;    // of the move, in units of |o as given| |r|
 constexpr double addend_limit = 0x1p100;  // beyond it a slab decides nothing, whatever its plane
 
-constexpr std::uint64_t exponent_bits = 0x7ff0000000000000ULL;
-
 double max_abs(const double (&v)[3]) {
   return std::fmax(std::fabs(v[0]), std::fmax(std::fabs(v[1]), std::fabs(v[2])));
 }
 
 void set_axis(std::size_t axis, double origin, double direction, double absolute_slack,
               BoxRay& out) {
-  auto d = static_cast<float>(direction);
-  if (std::fabs(direction) < smallest) d = std::copysign(static_cast<float>(smallest), d);
-  const float r = 1 / d;
+  const auto d = static_cast<float>(direction);
+  const float r = 1 / std::copysign(std::fmax(std::fabs(d), BoxRay::smallest), d);
   const double product = -(origin * static_cast<double>(r));
-  const double m =
-      (slack * (1 + std::fabs(origin)) + absolute_slack) * std::fabs(static_cast<double>(r));
+  const double m = (static_cast<double>(BoxRay::slack) * (1 + std::fabs(origin)) + absolute_slack) *
+                   std::fabs(static_cast<double>(r));
   out.reciprocal[axis] = r;
+  if (r < 0) out.negative |= 1U << axis;
   out.near_add[axis] = static_cast<float>(product - m);
   out.far_add[axis] = static_cast<float>(product + m);
-  const bool negative = std::signbit(d);
-  out.near_row[axis] = static_cast<std::uint32_t>((2 * axis + (negative ? 1 : 0)) * 32);
-  out.far_row[axis] = static_cast<std::uint32_t>((2 * axis + (negative ? 0 : 1)) * 32);
 }
 
 // The part of the ray within the tree's cube and a margin; false if there is none.
@@ -58,6 +53,7 @@ bool make_moved(const LocalRay& ray, BoxRay& out) {
   double enter = 0;
   if (!clip(ray, 0x1p-10 + move_slack * far, enter)) return false;
   out.shift = enter;
+  out.negative = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     set_axis(k, ray.origin[k] + ray.direction[k] * enter, ray.direction[k], move_slack * far, out);
     out.near_add[k] = std::fmax(out.near_add[k], static_cast<float>(-addend_limit));
@@ -75,21 +71,21 @@ LocalRay make_local(const TreeSpace& space, const Ray& ray) {
     lift = 0x1p200;
     d = d * lift;
   }
-  const double size =
-      std::bit_cast<double>(std::bit_cast<std::uint64_t>(backend::max_abs(d)) & exponent_bits);
+  const double size = power_of_two_below(backend::max_abs(d));
   const double inverse = 1 / size;
-  const double inverse_scale = 1 / space.scale;
+  const LocalTimes times{{space.inverse_scale, inverse, lift}, {space.scale, size / lift}};
   const Point3 o = space.to_local(ray.origin);
   return {{o.x, o.y, o.z},
           {d.x * inverse, d.y * inverse, d.z * inverse},
-          ray.t_min * space.scale * (size / lift),
-          ray.t_max * space.scale * (size / lift),
-          {inverse_scale, inverse, lift},
-          {space.scale, size / lift}};
+          times.to_local(ray.t_min),
+          times.to_local(ray.t_max),
+          times};
 }
 
 bool make_box_ray(const LocalRay& ray, BoxRay& out) {
-  if (!(max_abs(ray.origin) <= reach) || ray.t_min != 0) return make_moved(ray, out);
+  if (!(max_abs(ray.origin) <= BoxRay::reach) || ray.t_min != 0) return make_moved(ray, out);
+  out.shift = 0;
+  out.negative = 0;
   for (std::size_t k = 0; k < 3; ++k) set_axis(k, ray.origin[k], ray.direction[k], 0, out);
   return true;
 }

@@ -9,7 +9,7 @@
 //             +-2^-32. Then with r = fl(1 / fl(d)) a slab plane b is met at
 //               near(b) = fma(b, r, near_add), near_add = fl(-o r - m),
 //               far(b)  = fma(b, r, far_add),  far_add  = fl(-o r + m),
-//               m = 2^-21 (1 + |o|) |r| + 2^-49 |o as given| |r|.
+//               m = 12 u (1 + |o|) |r| + 2^-49 |o as given| |r|, u = 2^-24, in float.
 // Error:      near(b) <= (b - o) / d <= far(b) in exact arithmetic. With u = 2^-24: r = (1 + e) /
 // d,
 //             |e| <= 2.1 u, moves (b - o) / d by 2.1 u (1 + |o|) |r|; the sum in the addend rounds
@@ -33,32 +33,58 @@
 
 namespace scenec::backend {
 
-// The ray in tree space: the same points, t in other units.
-struct LocalRay {
-  double origin[3];
-  double direction[3];  // largest component in [1, 2)
-  double t_min;
-  double t_max;
-  // Powers of two, so t keeps its bits; several, because their product may be out of range.
+// t in tree space: in units of the direction's and the tree's powers of two, so it keeps its bits.
+// Several factors, because their product may be out of range.
+struct LocalTimes {
   double from_local[3];
   double into_local[2];
-
   [[nodiscard]] double to_world(double t_local) const {
     return t_local * from_local[0] * from_local[1] * from_local[2];
   }
   [[nodiscard]] double to_local(double t) const { return t * into_local[0] * into_local[1]; }
 };
 
+// The ray in tree space: the same points.
+struct LocalRay {
+  double origin[3];
+  double direction[3];  // largest component in [1, 2)
+  double t_min;
+  double t_max;
+  LocalTimes times;
+};
+
 [[nodiscard]] LocalRay make_local(const TreeSpace& space, const Ray& ray);
 
-struct BoxRay {
-  float reciprocal[3];
-  float near_add[3];
-  float far_add[3];
-  std::uint32_t near_row[3];  // in WideNode::bounds, in bytes from its beginning
-  std::uint32_t far_row[3];
-  double shift = 0;  // t_box = t_local - shift
+// The power of two at or below x; 0 for subnormal x.
+[[nodiscard]] inline double power_of_two_below(double x) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000ULL);
+}
+// 1 / p for a normal power of two, without a division.
+[[nodiscard]] inline double reciprocal_of_power(double p) {
+  const std::uint64_t bits = 0x7fe0000000000000ULL - std::bit_cast<std::uint64_t>(p);
+  // 1 / 2^1023 is subnormal.
+  return bits == 0 ? 0x1p-1023 : std::bit_cast<double>(bits);
+}
 
+// Each array has a fourth place of no meaning.
+struct BoxRay {
+  static constexpr double reach = 4;             // of origins that need no move
+  static constexpr float smallest = 0x1p-32F;    // component of a direction
+  static constexpr float slack = 12 * 0x1p-24F;  // of the test, in units of (1 + |o|) |r|
+
+  alignas(16) float reciprocal[4];
+  alignas(16) float near_add[4];
+  alignas(16) float far_add[4];
+  std::uint32_t negative = 0;  // bit k: component k of the direction is negative
+  double shift = 0;            // t_box = t_local - shift
+
+  // In WideNode::bounds, in bytes from its beginning.
+  [[nodiscard]] std::uint32_t near_row(std::uint32_t k) const {
+    return 64 * k + (negative >> k & 1U) * 32;
+  }
+  [[nodiscard]] std::uint32_t far_row(std::uint32_t k) const {
+    return 64 * k + 32 - (negative >> k & 1U) * 32;
+  }
   // Not below t_box of `t_local`: what `near` is compared with.
   [[nodiscard]] float limit(double t_local) const {
     const auto t = static_cast<float>(t_local - shift);

@@ -115,9 +115,15 @@ class Collapse {
   }
 
   TreeRef emit_leaf(const BinaryNode& node) {
-    const std::uint32_t blocks = blocks_of(node.count);
-    const auto first = static_cast<std::uint32_t>(ids_.size() / settings_.block_width);
+    const std::size_t start = ids_.size();
     for (std::uint32_t i = 0; i < node.count; ++i) ids_.push_back(refs_[node.first + i].id);
+    if (settings_.splitter != nullptr) {  // a cut triangle may have come together again
+      const auto begin = ids_.begin() + static_cast<std::ptrdiff_t>(start);
+      std::sort(begin, ids_.end());
+      ids_.erase(std::unique(begin, ids_.end()), ids_.end());
+    }
+    const std::uint32_t blocks = blocks_of(static_cast<std::uint32_t>(ids_.size() - start));
+    const auto first = static_cast<std::uint32_t>(start / settings_.block_width);
     ids_.resize(std::size_t{first + blocks} * settings_.block_width, BuiltTree::no_id);
     return TreeRef::leaf(first, blocks);
   }

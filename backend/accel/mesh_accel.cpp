@@ -1,6 +1,7 @@
 #include "backend/accel/mesh_accel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <vector>
@@ -11,6 +12,8 @@ namespace scenec::backend {
 namespace {
 
 constexpr std::size_t chunk = 16384;
+// Measured: between 0.5 and 2.5 rays take the same time, and larger leaves take less memory.
+constexpr float node_cost = 1.5F;
 
 template <class F>
 void for_chunks(ThreadPool& pool, std::size_t count, F&& f) {
@@ -185,12 +188,83 @@ void fill_blocks(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ids
   });
 }
 
+// Cuts triangles; what is cut is computed in double and rounded outward.
+template <class Vertices>
+class TriangleSplitter final : public RefSplitter {
+ public:
+  TriangleSplitter(const TriangleMesh& mesh, const Vertices& vertices)
+      : mesh_(mesh), vertices_(vertices) {}
+
+  void split(const BuildRef& ref, int axis, float plane, BuildRef& low,
+             BuildRef& high) const override {
+    low = high = ref;
+    Part below;
+    Part above;
+    const Face& f = mesh_.faces[ref.id];
+    const auto k = static_cast<std::size_t>(axis);
+    const double at = static_cast<double>(plane);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::array<double, 3> p = corner(f[i]);
+      const std::array<double, 3> q = corner(f[(i + 1) % 3]);
+      if (p[k] <= at) below.grow(p);
+      if (p[k] >= at) above.grow(p);
+      if ((p[k] < at && q[k] > at) || (p[k] > at && q[k] < at)) {
+        const double s = (at - p[k]) / (q[k] - p[k]);
+        const std::array<double, 3> cut{p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1]),
+                                        p[2] + s * (q[2] - p[2])};
+        below.grow(cut);
+        above.grow(cut);
+      }
+    }
+    below.limit(low);
+    above.limit(high);
+    low.max[axis] = std::min(ref.max[axis], plane);
+    high.min[axis] = std::max(ref.min[axis], plane);
+  }
+
+ private:
+  // Of coordinates up to 1, with room for the rounding of a cut.
+  static constexpr double rounding = 0x1p-50;
+
+  struct Part {
+    std::array<double, 3> min{2, 2, 2};
+    std::array<double, 3> max{-2, -2, -2};
+    void grow(const std::array<double, 3>& p) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        min[k] = std::min(min[k], p[k]);
+        max[k] = std::max(max[k], p[k]);
+      }
+    }
+    // What was there already is never left.
+    void limit(BuildRef& ref) const {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float low = std::max(ref.min[k], float_below(min[k] - rounding));
+        const float high = std::min(ref.max[k], float_above(max[k] + rounding));
+        if (low > high) continue;
+        ref.min[k] = low;
+        ref.max[k] = high;
+      }
+    }
+  };
+
+  [[nodiscard]] std::array<double, 3> corner(std::uint32_t index) const {
+    const auto p = vertices_(index);
+    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+  }
+
+  const TriangleMesh& mesh_;
+  const Vertices& vertices_;
+};
+
 template <class T, class Vertices>
 void build_mesh_tree(const TriangleMesh& mesh, const Vertices& vertices, ThreadPool& pool,
                      WideTree& tree, HugeVector<TriangleBlock<T>>& blocks) {
   std::vector<BuildRef> refs = refs_of(mesh, vertices, pool);
   BuildSettings settings;
   settings.block_width = TriangleBlock<T>::width;
+  settings.node_cost = node_cost;
+  const TriangleSplitter<Vertices> splitter(mesh, vertices);
+  settings.splitter = &splitter;
   BuiltTree built = build_tree(refs, settings, pool);
   refs = {};
   tree.root = built.root;

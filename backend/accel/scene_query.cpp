@@ -2,7 +2,9 @@
 // force, and is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "backend/accel/scene_query.cpp"
+#ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#endif
 #include <hwy/foreach_target.h>  // IWYU pragma: keep: re-includes this file
 #include <hwy/highway.h>
 
@@ -12,6 +14,11 @@
 #include "backend/accel/scene_data.hpp"
 #include "backend/accel/traverse-inl.hpp"
 #include "base/assert.hpp"
+
+// What the loop over nodes calls must be part of it: a call would push the ray out of its
+// registers.
+#undef SCENEC_INLINE_LAMBDA
+#define SCENEC_INLINE_LAMBDA __attribute__((always_inline))
 
 HWY_BEFORE_NAMESPACE();
 namespace scenec::backend {
@@ -38,19 +45,18 @@ class Query {
     if (walk_ == Walk::brute_force) return trace_items(world, 0, world.items.size(), ray);
     if (world.tree.root.is_leaf())
       return trace_items(world, world.tree.root.first(), world.tree.root.count(), ray);
-    const LocalRay local = make_local(world.tree.space, ray);
-    BoxRay box;
-    if (!make_box_ray(local, box)) return false;
-    float limit = box.limit(local.t_max);
-    const auto leaf = [&](TreeRef ref) HWY_ATTR {
+    TreeRay local;
+    if (!local.prepare(world.tree, ray, best_.t)) return false;
+    const auto leaf = [&](TreeRef ref, float& limit) HWY_ATTR {
       const double before = best_.t;
       if (trace_items(world, ref.first(), ref.count(), ray)) return true;
-      if (best_.t != before) limit = box.limit(local.to_local(best_.t));
+      if (best_.t != before) limit = local.box.limit(local.times.to_local(best_.t));
       return false;
     };
-    return walk < want == Want::any ? Order::any
-                                    : Order::nearest_first > (world.tree.nodes.data(),
-                                                              world.tree.root, box, limit, leaf);
+    return walk < want == Want::any
+               ? Order::any
+               : Order::nearest_first > (world.tree.nodes.data(), world.tree.root, local.box,
+                                         local.box.limit(local.t_max), leaf);
   }
 
   [[nodiscard]] bool found() const { return found_; }
@@ -66,13 +72,18 @@ class Query {
 
   bool trace_item(const World& world, const PlacedItem& item, const Ray& ray) {
     path_.steps[path_.size++] = {&world, &item};
+    if (item.kind == ShapeKind::mesh && item.transform == SceneAccel::identity) {
+      const bool stop = trace_mesh(world.meshes[item.index]->tree(), item, ray, best_.t);
+      --path_.size;
+      return stop;
+    }
     Ray local = to_object(path_.leaf(), ray);
     local.t_max = best_.t;
     bool done = false;
     if (item.kind == ShapeKind::instance) {
       done = trace(World::of(*world.worlds[item.index]), local);
     } else if (item.kind == ShapeKind::mesh) {
-      done = trace_mesh(world.meshes[item.index]->tree(), item, local);
+      done = trace_mesh(world.meshes[item.index]->tree(), item, local, best_.t);
     } else {
       done = trace_shape(world, item, local);
     }
@@ -92,54 +103,67 @@ class Query {
     return false;
   }
 
-  bool trace_mesh(const MeshTree& mesh, const PlacedItem& item, const Ray& ray) {
+  bool trace_mesh(const MeshTree& mesh, const PlacedItem& item, const Ray& ray, double t_max) {
     if (mesh.tree.empty) return false;
-    return mesh.full() ? trace_blocks(mesh.tree, mesh.full_blocks, item, ray)
-                       : trace_blocks(mesh.tree, mesh.blocks, item, ray);
+    return mesh.full() ? trace_blocks(mesh.tree, mesh.full_blocks, item, ray, t_max)
+                       : trace_blocks(mesh.tree, mesh.blocks, item, ray, t_max);
   }
 
   template <class T>
   bool trace_blocks(const WideTree& tree, const HugeVector<TriangleBlock<T>>& blocks,
-                    const PlacedItem& item, const Ray& ray) {
-    const LocalRay local = make_local(tree.space, ray);
-    BoxRay box;
-    if (!make_box_ray(local, box)) return false;
-    const TriangleTest test(local);
-    float limit = box.limit(local.t_max);
+                    const PlacedItem& item, const Ray& ray, double t_max) {
+    TreeRay local;
+    if (!local.prepare(tree, ray, t_max)) return false;
+    TriangleTest test;
+    bool prepared = false;
     double best_t = local.t_max;
     ShapeHit best;
     bool found = false;
-    const auto hit = [&](double t, std::uint32_t face, double b1, double b2) HWY_ATTR {
-      if (t > best_t || (found && t == best_t && face >= best.part)) return false;
-      const ShapeHit candidate{local.to_world(t), face, b1, b2};
-      if (!(std::fabs(candidate.t) <= std::numeric_limits<double>::max())) return false;
-      if constexpr (filtering == Filtering::some) {
-        if (!improves(candidate) || !passes(item, candidate)) return false;
-      }
-      if constexpr (want == Want::any) {
-        accept(candidate);
-        return true;
-      }
-      found = true;
-      best = candidate;
-      best_t = t;
-      limit = box.limit(t);
-      return false;
+    const auto test_block = [&](const TriangleBlock<T>& block) SCENEC_INLINE_LAMBDA {
+      return test(block, best_t,
+                  [&](double t, std::uint32_t face, double b1, double b2) SCENEC_INLINE_LAMBDA {
+                    if (t > best_t || (found && t == best_t && face >= best.part)) return false;
+                    const ShapeHit candidate{local.times.to_world(t), face, b1, b2};
+                    if (!(std::fabs(candidate.t) <= std::numeric_limits<double>::max()))
+                      return false;
+                    if constexpr (filtering == Filtering::some) {
+                      if (!improves(candidate) || !passes(item, candidate)) return false;
+                    }
+                    if constexpr (want == Want::any) {
+                      accept(candidate);
+                      return true;
+                    }
+                    found = true;
+                    best = candidate;
+                    best_t = t;
+                    return false;
+                  });
     };
-    const auto leaf = [&](TreeRef ref) HWY_ATTR {
+    const auto leaf = [&](TreeRef ref, float& limit) SCENEC_INLINE_LAMBDA {
+      // Many rays never come to a leaf.
+      if (!prepared) {
+        test.prepare(local);
+        prepared = true;
+      }
+      const double before = best_t;
       const TriangleBlock<T>* block = blocks.data() + ref.first();
-      for (std::uint32_t i = 0; i < ref.count(); ++i)
-        if (test(block[i], best_t, hit)) return true;
+      const TriangleBlock<T>* end = block + ref.count();
+      do {
+        if (test_block(*block)) return true;
+      } while (++block != end);
+      if (best_t != before) limit = local.box.limit(best_t);
       return false;
     };
     bool stopped = false;
     if (walk_ == Walk::brute_force) {
+      test.prepare(local);
       for (const TriangleBlock<T>& block : blocks)
-        if ((stopped = test(block, best_t, hit))) break;
+        if ((stopped = test_block(block))) break;
     } else {
       stopped = walk < want == Want::any
                     ? Order::any
-                    : Order::nearest_first > (tree.nodes.data(), tree.root, box, limit, leaf);
+                    : Order::nearest_first > (tree.nodes.data(), tree.root, local.box,
+                                              local.box.limit(local.t_max), leaf);
     }
     if (found && improves(best)) accept(best);
     return stopped;

@@ -54,50 +54,126 @@ HWY_INLINE std::uint32_t bits_of(D d, M mask) {
   return bytes[0];
 }
 
-// The tests of one ray against all eight children.
-class NodeTest {
- public:
-  HWY_INLINE explicit NodeTest(const BoxRay& ray) {
-    const FloatTag d;
-    for (int k = 0; k < 3; ++k) {
-      reciprocal_[k] = hn::Set(d, ray.reciprocal[k]);
-      near_add_[k] = hn::Set(d, ray.near_add[k]);
-      far_add_[k] = hn::Set(d, ray.far_add[k]);
-      near_row_[k] = ray.near_row[k];
-      far_row_[k] = ray.far_row[k];
+// Not std::fmax, which is a call. NaN may come out as anything.
+HWY_INLINE double largest(double a, double b, double c) {
+  const double ab = a > b ? a : b;
+  return ab > c ? ab : c;
+}
+
+// The ray of one query in tree space, made ready for boxes and (later, if it comes to that) for
+// triangles. False from `prepare`: it meets nothing.
+struct TreeRay {
+  alignas(32) double origin[4];
+  alignas(32) double direction[4];  // largest component in [1, 2)
+  LocalTimes times;
+  double t_min;
+  double t_max;
+  BoxRay box;
+
+  HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, double until) {
+    const DoubleTag d;
+    const hn::Rebind<float, DoubleTag> f;
+    const double size = power_of_two_below(largest(
+        std::fabs(ray.direction.x), std::fabs(ray.direction.y), std::fabs(ray.direction.z)));
+    if (HWY_UNLIKELY(!(size > 0))) return prepare_slowly(tree.space, ray, until);
+    const double inverse = reciprocal_of_power(size);
+    times = LocalTimes{{tree.space.inverse_scale, inverse, 1}, {tree.space.scale, size}};
+    t_min = times.to_local(ray.t_min);
+    t_max = times.to_local(until);
+    // Four numbers from three: the fourth is the next member of the ray, and nobody looks at it.
+    const double* from = &ray.origin.x;
+    const double* along = &ray.direction.x;
+    const double* center = &tree.space.center.x;
+    std::uint32_t negative = 0;
+    for (std::size_t at = 0; at < 4; at += triangle_lanes) {
+      const Doubles o = hn::Mul(hn::Sub(hn::LoadU(d, from + at), hn::LoadU(d, center + at)),
+                                hn::Set(d, tree.space.scale));
+      const Doubles v = hn::Mul(hn::LoadU(d, along + at), hn::Set(d, inverse));
+      hn::Store(o, d, origin + at);
+      hn::Store(v, d, direction + at);
+      const auto vf = hn::DemoteTo(f, v);
+      const auto of = hn::DemoteTo(f, o);
+      const auto r = hn::Div(hn::Set(f, 1.0F),
+                             hn::CopySign(hn::Max(hn::Abs(vf), hn::Set(f, BoxRay::smallest)), vf));
+      const auto product = hn::Mul(of, r);
+      const auto slack = hn::Set(f, BoxRay::slack);
+      const auto margin = hn::Mul(hn::MulAdd(slack, hn::Abs(of), slack), hn::Abs(r));
+      hn::Store(r, f, box.reciprocal + at);
+      hn::Store(hn::Neg(hn::Add(product, margin)), f, box.near_add + at);
+      hn::Store(hn::Sub(margin, product), f, box.far_add + at);
+      negative |= bits_of(f, hn::Lt(r, hn::Zero(f))) << at;
     }
+    const double reach = largest(std::fabs(origin[0]), std::fabs(origin[1]), std::fabs(origin[2]));
+    box.negative = negative;
+    box.shift = 0;
+    if (HWY_LIKELY(reach <= BoxRay::reach && t_min == 0)) return true;
+    return make_box_ray(local(), box);
   }
-  // A bit for every child whose box the ray meets up to `limit`, and where it enters them (>= 0).
-  HWY_INLINE std::uint32_t operator()(const WideNode* node, float limit, float* entry) const {
-    const FloatTag d;
-    const auto* base = reinterpret_cast<const std::uint8_t*>(node);
-    std::uint32_t bits = 0;
-    for (std::size_t part = 0; part < box_parts; ++part) {
-      const std::size_t at = part * box_lanes * sizeof(float);
-      const auto slab = [&](std::uint32_t row, int k, const Floats& add) HWY_ATTR {
-        const auto* planes = reinterpret_cast<const float*>(base + row + at);
-        return hn::MulAdd(hn::Load(d, planes), reciprocal_[k], add);
-      };
-      const Floats near_x = slab(near_row_[0], 0, near_add_[0]);
-      const Floats near_y = slab(near_row_[1], 1, near_add_[1]);
-      const Floats near_z = slab(near_row_[2], 2, near_add_[2]);
-      const Floats far_x = slab(far_row_[0], 0, far_add_[0]);
-      const Floats far_y = slab(far_row_[1], 1, far_add_[1]);
-      const Floats far_z = slab(far_row_[2], 2, far_add_[2]);
-      const Floats near = hn::Max(hn::Max(near_x, near_y), hn::Max(near_z, hn::Zero(d)));
-      const Floats far = hn::Min(hn::Min(far_x, far_y), hn::Min(far_z, hn::Set(d, limit)));
-      hn::Store(near, d, entry + part * box_lanes);
-      bits |= bits_of(d, hn::Le(near, far)) << (part * box_lanes);
-    }
-    return bits;
+
+  [[nodiscard]] LocalRay local() const {
+    return {{origin[0], origin[1], origin[2]},
+            {direction[0], direction[1], direction[2]},
+            t_min,
+            t_max,
+            times};
   }
 
  private:
-  Floats reciprocal_[3];
-  Floats near_add_[3];
-  Floats far_add_[3];
-  std::uint32_t near_row_[3];
-  std::uint32_t far_row_[3];
+  HWY_NOINLINE bool prepare_slowly(const TreeSpace& space, const Ray& ray, double until) {
+    const LocalRay r = make_local(space, {ray.origin, ray.direction, ray.t_min, until});
+    for (std::size_t k = 0; k < 3; ++k) {
+      origin[k] = r.origin[k];
+      direction[k] = r.direction[k];
+    }
+    times = r.times;
+    t_min = r.t_min;
+    t_max = r.t_max;
+    return make_box_ray(r, box);
+  }
+};
+
+// One axis of a ray against the planes of eight children.
+struct SlabTest {
+  Floats reciprocal;
+  Floats near_add;
+  Floats far_add;
+  std::size_t near_row;
+  std::size_t far_row;
+
+  HWY_INLINE SlabTest(const BoxRay& ray, std::uint32_t k)
+      : reciprocal(hn::Set(FloatTag(), ray.reciprocal[k])),
+        near_add(hn::Set(FloatTag(), ray.near_add[k])),
+        far_add(hn::Set(FloatTag(), ray.far_add[k])),
+        near_row(ray.near_row(k)),
+        far_row(ray.far_row(k)) {}
+  HWY_INLINE Floats near(const std::uint8_t* node) const {
+    return hn::MulAdd(hn::Load(FloatTag(), reinterpret_cast<const float*>(node + near_row)),
+                      reciprocal, near_add);
+  }
+  HWY_INLINE Floats far(const std::uint8_t* node) const {
+    return hn::MulAdd(hn::Load(FloatTag(), reinterpret_cast<const float*>(node + far_row)),
+                      reciprocal, far_add);
+  }
+};
+
+// The tests of one ray against all eight children.
+struct NodeTest {
+  SlabTest x, y, z;
+
+  HWY_INLINE explicit NodeTest(const BoxRay& ray) : x(ray, 0), y(ray, 1), z(ray, 2) {}
+  // A bit for every child whose box the ray meets up to `limit`, and where it enters them (>= 0).
+  HWY_INLINE std::uint32_t operator()(const std::uint8_t* node, const Floats& limit,
+                                      Floats (&entry)[box_parts]) const {
+    const FloatTag d;
+    std::uint32_t bits = 0;
+    for (std::size_t part = 0; part < box_parts; ++part) {
+      const std::uint8_t* at = node + part * box_lanes * sizeof(float);
+      entry[part] = hn::Max(hn::Max(x.near(at), y.near(at)), hn::Max(z.near(at), hn::Zero(d)));
+      const Floats exit = hn::Min(hn::Min(x.far(at), y.far(at)), hn::Min(z.far(at), limit));
+      bits |= bits_of(d, hn::Le(entry[part], exit)) << (part * box_lanes);
+    }
+    return bits;
+  }
 };
 
 // What waits on the stack: entry and child in one number, ordered by entry (floats >= 0 order as
@@ -130,57 +206,57 @@ HWY_INLINE void sort_pending(std::uint64_t* bottom, std::uint64_t* top) {
   }
 }
 
-// Calls leaf(ref) for every leaf whose box meets the ray up to `limit`, which the callee may lower
-// meanwhile. Stops, and returns true, when `leaf` returns true.
+// Calls leaf(ref, limit) for every leaf whose box meets the ray up to `limit`, which the callee may
+// lower. Stops, and returns true, when `leaf` returns true.
 template <Order order, class Leaf>
-HWY_INLINE bool walk(const WideNode* nodes, TreeRef root, const BoxRay& box_ray, float& limit,
+HWY_INLINE bool walk(const WideNode* nodes, TreeRef root, const BoxRay& box_ray, float limit,
                      Leaf&& leaf) {
+  const FloatTag d;
   const NodeTest test(box_ray);
+  Floats limits = hn::Set(d, limit);
   std::uint64_t stack[stack_size];
   std::uint64_t* top = stack;
-  alignas(32) float entry[8];
   TreeRef current = root;
   const auto* base = reinterpret_cast<const std::uint8_t*>(nodes);
   while (true) {
     while (!current.is_leaf()) {
-      const auto* node = reinterpret_cast<const WideNode*>(base + current.node_offset());
-      std::uint32_t bits = test(node, limit, entry);
+      const std::uint8_t* node = base + current.node_offset();
+      const auto* child = reinterpret_cast<const TreeRef*>(node + WideNode::child_offset);
+      Floats entries[box_parts];
+      std::uint32_t bits = test(node, limits, entries);
       if (bits == 0) goto next;
       const auto first = static_cast<std::size_t>(std::countr_zero(bits));
       bits &= bits - 1;
-      current = node->child[first];
+      current = child[first];
       if (bits == 0) continue;
+      alignas(32) float entry[8];
+      for (std::size_t part = 0; part < box_parts; ++part)
+        hn::Store(entries[part], d, entry + part * box_lanes);
       const auto second = static_cast<std::size_t>(std::countr_zero(bits));
       bits &= bits - 1;
-      if constexpr (order == Order::any) {
-        *top++ = pending_of(entry[second], node->child[second]);
-        while (bits != 0) {
-          const auto i = static_cast<std::size_t>(std::countr_zero(bits));
-          bits &= bits - 1;
-          *top++ = pending_of(entry[i], node->child[i]);
-        }
-        continue;
-      }
       const std::uint64_t a = pending_of(entry[first], current);
-      const std::uint64_t b = pending_of(entry[second], node->child[second]);
+      const std::uint64_t b = pending_of(entry[second], child[second]);
       if (bits == 0) {
-        const bool a_first = a < b;
-        *top++ = a_first ? b : a;
-        current = child_of(a_first ? a : b);
+        *top++ = a < b ? b : a;
+        current = child_of(a < b ? a : b);
         continue;
       }
       std::uint64_t* bottom = top;
       *top++ = a;
       *top++ = b;
-      while (bits != 0) {
+      do {
         const auto i = static_cast<std::size_t>(std::countr_zero(bits));
         bits &= bits - 1;
-        *top++ = pending_of(entry[i], node->child[i]);
-      }
-      sort_pending(bottom, top);
+        *top++ = pending_of(entry[i], child[i]);
+      } while (bits != 0);
+      if constexpr (order == Order::nearest_first) sort_pending(bottom, top);
       current = child_of(*--top);
     }
-    if (leaf(current)) return true;
+    {
+      const float before = limit;
+      if (leaf(current, limit)) return true;
+      if (limit != before) limits = hn::Set(d, limit);
+    }
   next:
     do {
       if (top == stack) return false;
@@ -193,23 +269,30 @@ HWY_INLINE bool walk(const WideNode* nodes, TreeRef root, const BoxRay& box_ray,
 // One ray against triangles in tree space.
 class TriangleTest {
  public:
-  HWY_INLINE explicit TriangleTest(const LocalRay& ray) : t_min_(ray.t_min) {
-    // As RayShear: along the largest component, the other two in the order that keeps the winding.
+  // As RayShear: along the largest component, the other two in the order that keeps the winding.
+  HWY_INLINE void prepare(const TreeRay& ray) {
     const double ax = std::fabs(ray.direction[0]);
     const double ay = std::fabs(ray.direction[1]);
     const double az = std::fabs(ray.direction[2]);
-    z_ = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
-    x_ = z_ == 2 ? 0 : z_ + 1;
-    y_ = x_ == 2 ? 0 : x_ + 1;
-    const double along = ray.direction[z_];
-    if (along < 0) std::swap(x_, y_);
+    std::uint32_t z = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
+    std::uint32_t x = z == 2 ? 0 : z + 1;
+    std::uint32_t y = x == 2 ? 0 : x + 1;
+    const double along = ray.direction[z];
+    if (along < 0) std::swap(x, y);
+    x_ = x;
+    y_ = y;
+    z_ = z;
+    t_min_ = ray.t_min;
     const DoubleTag d;
-    origin_x_ = hn::Set(d, ray.origin[x_]);
-    origin_y_ = hn::Set(d, ray.origin[y_]);
-    origin_z_ = hn::Set(d, ray.origin[z_]);
-    sx_ = hn::Set(d, ray.direction[x_] / along);
-    sy_ = hn::Set(d, ray.direction[y_] / along);
-    sz_ = hn::Set(d, 1 / along);
+    origin_x_ = hn::Set(d, ray.origin[x]);
+    origin_y_ = hn::Set(d, ray.origin[y]);
+    origin_z_ = hn::Set(d, ray.origin[z]);
+    alignas(32) double quotient[4] = {ray.direction[x], ray.direction[y], 1, 1};
+    for (std::size_t at = 0; at < 4; at += triangle_lanes)
+      hn::Store(hn::Div(hn::Load(d, quotient + at), hn::Set(d, along)), d, quotient + at);
+    sx_ = hn::Set(d, quotient[0]);
+    sy_ = hn::Set(d, quotient[1]);
+    sz_ = hn::Set(d, quotient[2]);
   }
 
   // Calls hit(t, face, b1, b2) for every triangle of the block that is hit in [t_min, t_max];
@@ -290,7 +373,7 @@ class TriangleTest {
   }
 
   Doubles origin_x_, origin_y_, origin_z_, sx_, sy_, sz_;
-  int x_, y_, z_;
+  std::size_t x_, y_, z_;
   double t_min_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "backend/accel/binary_build.hpp"
+#include "backend/accel/spatial_build.hpp"
 #include "base/assert.hpp"
 
 namespace scenec::backend {
@@ -10,6 +11,11 @@ namespace {
 
 // Runs up to this size are one task. Fixed, so that the tree does not depend on the pool.
 constexpr std::size_t task_size = 16384;
+
+// Spatial splits are tried when the sides of nodes overlap by more than this share of the nodes'
+// areas: it lies between scans (below 0.17) and buildings (above 0.24).
+constexpr float overlap_worth_splitting = 0.2F;
+constexpr std::uint32_t smallest_measured = 64;
 
 // The upper part, built first; its leaves are tasks.
 struct TopNode {
@@ -21,6 +27,9 @@ struct TopNode {
 
 struct Task {
   BuildRange range;
+  SpatialRange spatial;
+  float overlap = 0;  // of the sides of its nodes, and their areas
+  float area = 0;
   TreeRef root;
   HugeVector<WideNode> nodes;
   std::vector<std::uint32_t> ids;
@@ -37,8 +46,21 @@ class Builder {
     BuiltTree out;
     if (refs_.empty()) return out;
     out.empty = false;
-    build_top(whole_range(refs_));
+    const BuildRange whole = whole_range(refs_);
+    build_top(whole);
     pool_.for_each(tasks_.size(), [&](std::size_t i, unsigned) { build_task(tasks_[i]); });
+    if (settings_.splitter != nullptr && splits_pay()) {
+      top_.clear();
+      tasks_.clear();
+      root_area_ = whole.box.half_area();
+      SpatialRange all{
+          {refs_.begin(), refs_.end()},
+          static_cast<std::size_t>(settings_.extra_refs * static_cast<float>(refs_.size())),
+          0};
+      build_top_spatially(std::move(all));
+      pool_.for_each(tasks_.size(),
+                     [&](std::size_t i, unsigned) { build_task_spatially(tasks_[i]); });
+    }
     std::uint32_t nodes = count_top_nodes(0);
     std::uint32_t blocks = 0;
     for (Task& task : tasks_) {
@@ -64,7 +86,7 @@ class Builder {
     BuildRange right;
     if (range.count <= task_size || !split_range(refs_, range, settings_, left, right)) {
       at(self).task = static_cast<int>(tasks_.size());
-      tasks_.push_back({range, {}, {}, {}, 0, 0});
+      tasks_.emplace_back().range = range;
       return self;
     }
     const int first = build_top(left);
@@ -79,6 +101,55 @@ class Builder {
     task.nodes.reserve(tree.size() / 8 + 1);
     task.ids.reserve(task.range.count + task.range.count / 2);
     task.root = collapse(tree, refs_, settings_, task.nodes, task.ids);
+    measure_overlap(tree, task);
+  }
+
+  static void measure_overlap(std::span<const BinaryNode> tree, Task& task) {
+    for (std::size_t i = 0; i < tree.size(); ++i) {
+      if (tree[i].is_leaf() || tree[i].count < smallest_measured) continue;
+      const FloatBox& a = tree[i + 1].box;
+      const FloatBox& b = tree[tree[i].second].box;
+      const FloatBox both{max_of(a.min, b.min), min_of(a.max, b.max)};
+      if (both.min[0] <= both.max[0] && both.min[1] <= both.max[1] && both.min[2] <= both.max[2])
+        task.overlap += both.half_area();
+      task.area += tree[i].box.half_area();
+    }
+  }
+
+  // How much the sides of nodes overlap says how much cutting could save.
+  [[nodiscard]] bool splits_pay() const {
+    float overlap = 0;
+    float area = 0;
+    for (const Task& task : tasks_) {
+      overlap += task.overlap;
+      area += task.area;
+    }
+    return overlap > overlap_worth_splitting * area;
+  }
+
+  int build_top_spatially(SpatialRange range) {
+    const auto self = static_cast<int>(top_.size());
+    top_.push_back({box_of(range.refs)});
+    SpatialRange left;
+    SpatialRange right;
+    if (range.refs.size() <= task_size ||
+        !split_spatially(range, settings_, root_area_, left, right)) {
+      at(self).task = static_cast<int>(tasks_.size());
+      tasks_.emplace_back().spatial = std::move(range);
+      return self;
+    }
+    const int first = build_top_spatially(std::move(left));
+    const int second = build_top_spatially(std::move(right));
+    at(self).first = first;
+    at(self).second = second;
+    return self;
+  }
+
+  void build_task_spatially(Task& task) const {
+    std::vector<BuildRef> refs;
+    const std::vector<BinaryNode> tree =
+        build_binary_spatially(std::move(task.spatial), settings_, root_area_, refs);
+    task.root = collapse(tree, refs, settings_, task.nodes, task.ids);
   }
 
   static TreeRef moved(TreeRef ref, const Task& task) {
@@ -150,6 +221,7 @@ class Builder {
   std::vector<TopNode> top_;
   std::vector<Task> tasks_;
   std::uint32_t next_node_ = 0;
+  float root_area_ = 0;
 };
 
 }  // namespace

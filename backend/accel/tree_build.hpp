@@ -10,7 +10,7 @@
 // Proof:      tests/unit/backend/accel/tree_build_test.cpp (G26).
 #pragma once
 
-#include <cmath>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,14 +20,22 @@
 
 namespace scenec::backend {
 
-// The nearest floats that are not above (below) x, for |x| <= 2.
+// The floats next to f; for finite f.
+[[nodiscard]] inline float float_before(float f) {
+  const auto bits = std::bit_cast<std::uint32_t>(f);
+  return f == 0 ? -0x1p-149F : std::bit_cast<float>(f > 0 ? bits - 1 : bits + 1);
+}
+[[nodiscard]] inline float float_after(float f) {
+  return -float_before(-f);
+}
+// The nearest floats that are not above (below) x.
 [[nodiscard]] inline float float_below(double x) {
   const auto f = static_cast<float>(x);
-  return static_cast<double>(f) <= x ? f : std::nextafter(f, -2.0F);
+  return static_cast<double>(f) <= x ? f : float_before(f);
 }
 [[nodiscard]] inline float float_above(double x) {
   const auto f = static_cast<float>(x);
-  return static_cast<double>(f) >= x ? f : std::nextafter(f, 2.0F);
+  return static_cast<double>(f) >= x ? f : float_after(f);
 }
 
 // A box to be placed in the tree, and its number.
@@ -38,10 +46,24 @@ struct alignas(32) BuildRef {
   std::uint32_t unused;
 };
 
+// Cuts what a box stands for.
+class RefSplitter {
+ public:
+  RefSplitter() = default;
+  RefSplitter(const RefSplitter&) = delete;
+  RefSplitter& operator=(const RefSplitter&) = delete;
+  virtual ~RefSplitter() = default;
+  // The boxes, within `ref`'s, of what lies below and above `plane`, which cuts the box.
+  virtual void split(const BuildRef& ref, int axis, float plane, BuildRef& low,
+                     BuildRef& high) const = 0;
+};
+
 struct BuildSettings {
   std::uint32_t block_width = 1;
   std::uint32_t max_blocks = TreeRef::max_blocks;  // of a leaf
   float node_cost = 1;                             // of the tests of a node, in tests of a block
+  const RefSplitter* splitter = nullptr;           // null: no spatial splits
+  float extra_refs = 0.3F;  // that spatial splits may add, for each one given
 };
 
 struct BuiltTree {

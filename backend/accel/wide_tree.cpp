@@ -33,6 +33,7 @@ TreeSpace space_of(const Bounds3& bounds) {
              : exponent < -max_exponent ? -max_exponent
                                         : exponent;
   space.scale = std::ldexp(1.0, -exponent);
+  space.inverse_scale = std::ldexp(1.0, exponent);
   return space;
 }
 

@@ -5,6 +5,7 @@
 // scenes of 1e300 or 1e-30 are like any other, and floats are as fine as they can be.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -17,12 +18,14 @@ namespace scenec::backend {
 struct TreeSpace {
   Point3 center;
   double scale = 1;
+  double inverse_scale = 1;
 
   [[nodiscard]] Point3 to_local(const Point3& p) const {
     return {(p.x - center.x) * scale, (p.y - center.y) * scale, (p.z - center.z) * scale};
   }
   [[nodiscard]] Point3 to_world(const Point3& p) const {
-    return {p.x / scale + center.x, p.y / scale + center.y, p.z / scale + center.z};
+    return {p.x * inverse_scale + center.x, p.y * inverse_scale + center.y,
+            p.z * inverse_scale + center.z};
   }
   friend bool operator==(const TreeSpace&, const TreeSpace&) = default;
 };
@@ -65,9 +68,11 @@ class TreeRef {
 // +infinity to -infinity), which no ray meets.
 struct alignas(32) WideNode {
   static constexpr int width = 8;
+  static constexpr std::size_t child_offset = 6 * width * sizeof(float);
   float bounds[6][width];  // min x, max x, min y, max y, min z, max z
   TreeRef child[width];
 };
+static_assert(offsetof(WideNode, child) == WideNode::child_offset);
 static_assert(sizeof(WideNode) == 224 && std::is_trivially_copyable_v<WideNode>);
 
 // Four triangles in tree space, a coordinate at a time. Places without a triangle have all their

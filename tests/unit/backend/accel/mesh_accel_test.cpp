@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 
 #include "backend/accel/box_ray.hpp"
@@ -65,7 +66,7 @@ bool nearest(const MeshAccel& accel, const Ray& ray, ShapeHit& best) {
     best = hit;
     best.part = f;
   }
-  best.t = local.to_world(best.t);
+  best.t = local.times.to_world(best.t);
   return found;
 }
 
@@ -107,6 +108,43 @@ TEST(MeshAccel, EveryTargetHasTheBitsOfTheScalarFormula) {
       EXPECT_GT(hits, 1000);
     }
   }
+}
+
+// Long thin triangles across each other: the builder cuts them.
+TriangleMesh needles(Draw& draw, std::uint32_t count) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Point3 at = draw.point(1);
+    mesh.positions.push_back(at);
+    mesh.positions.push_back(at + 0.7 * draw.direction().vector());
+    mesh.positions.push_back(at + 0.01 * draw.direction().vector());
+    mesh.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
+TEST(MeshAccel, CutTrianglesAreNeitherLostNorFoundTwice) {
+  Draw draw(12);
+  const auto built = std::make_shared<const MeshAccel>(needles(draw, 3000), pool());
+  std::size_t references = 0;
+  for (const auto& block : built->tree().blocks)
+    for (const std::uint32_t face : block.face) references += face != TriangleBlock<float>::no_face;
+  EXPECT_GT(references, 3000U);
+  const SceneAccel accel = world_of(built, best_target());
+  for (int i = 0; i < 6000; ++i) {
+    const Ray ray = random_ray(draw);
+    Hit tree;
+    Hit brute;
+    ASSERT_EQ(accel.intersect(ray, tree), accel.intersect_brute_force(ray, brute)) << i;
+    ASSERT_EQ(tree.t, brute.t);
+    ASSERT_EQ(tree.primitive, brute.primitive);
+  }
+  ThreadPool seven(7);
+  const MeshAccel again(built->shared_mesh(), seven);
+  ASSERT_EQ(again.tree().tree.nodes.size(), built->tree().tree.nodes.size());
+  EXPECT_EQ(std::memcmp(again.tree().tree.nodes.data(), built->tree().tree.nodes.data(),
+                        again.tree().tree.nodes.size() * sizeof(WideNode)),
+            0);
 }
 
 // G21. A million rays where SCENEC_SLOW_TESTS is set.
