@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <tuple>
 #include <utility>
 
 #include "base/render_diagnostic.hpp"
@@ -157,6 +158,16 @@ std::vector<Finding> Session::findings() const {
     }
     result.push_back({std::move(diagnostic), severity});
   }
+  // What is said of a translated text stands where the author wrote it.
+  const auto place = [&](const Finding& finding) {
+    const Span span = finding.diagnostic.span;
+    return span.valid() ? sources_.resolve(span) : span;
+  };
+  std::stable_sort(result.begin(), result.end(), [&](const Finding& a, const Finding& b) {
+    const Span first = place(a);
+    const Span second = place(b);
+    return std::tuple(first.file, first.begin) < std::tuple(second.file, second.begin);
+  });
   return result;
 }
 

@@ -30,8 +30,8 @@ struct Compiled {
 std::optional<Compiled> compile(scenec::FileSystem& files, const std::string& path) {
   scenec::SourceMap sources;
   scenec::DiagnosticSink sink;
-  const scenec::frontend::CompileOptions options{
-      .dialect = {}, .params = {}, .frame = {}, .method = {}, .library = true};
+  scenec::frontend::CompileOptions options;
+  options.library = true;
   const auto scene = scenec::frontend::compile(path, options, files, sources, sink);
   if (!scene || scene->cameras.empty()) return std::nullopt;  // a library dumps as nothing
   return Compiled{scene->hash.hex(), scenec::ir::dump_text(*scene, {})};

@@ -204,7 +204,8 @@ bool says(const Compiled& result, std::string_view code) {
 TEST(EveryKey, RefusesAValueOfAWrongType) {
   for_each_key([](const ir::KindDescription& kind, const ir::KeyDescription& key) {
     if (key.type == "block") return;
-    const std::string wrong = key.type == "file name" ? "12" : "\"x\"";
+    const bool takes_text = key.type == "file name" || key.type == "string";
+    const std::string wrong = takes_text ? "12" : "\"x\"";
     const std::string field = std::string(key.name) + " = " + wrong + ";";
     const Compiled result = item_with(kind, field);
     EXPECT_TRUE(says(result, "E0210")) << kind.family << " " << kind.name << " " << field << "\n"
