@@ -82,7 +82,7 @@ std::optional<backend::TriangleMesh> read_bench_mesh(const std::string& path) {
   auto data = backend::read_ply(bytes.str());
   if (!data) return std::nullopt;
   backend::TriangleMesh mesh;
-  for (const auto& p : data.value().positions) mesh.positions.push_back({p[0], p[1], p[2]});
+  mesh.positions = data.value().positions;
   mesh.faces = data.value().triangles;
   return mesh;
 }
