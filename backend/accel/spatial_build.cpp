@@ -217,8 +217,9 @@ bool split_spatially(SpatialRange& range, const BuildSettings& settings, float r
   if (range.depth < depth_of_heuristic) {
     object = best_object_split(range.refs, whole, settings.block_width);
     Plane plane;
-    if (range.extra > 0 &&
-        (object.axis < 0 || overlap_area(object.left, object.right) > overlap_worth * root_area)) {
+    // Where all centroids are one, cutting parts nothing: each side gets a piece of every entry.
+    if (range.extra > 0 && object.axis >= 0 &&
+        overlap_area(object.left, object.right) > overlap_worth * root_area) {
       for (int axis = 0; axis < 3; ++axis) try_axis(range.refs, whole.box, axis, settings, plane);
     }
     if (plane.cost < object.cost && divide(range, settings, plane, object.cost, left, right)) {
