@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "frontend/check/check_scene.hpp"
+#include "frontend/check/lint_scene.hpp"
 #include "frontend/course/translate.hpp"
 #include "frontend/dialect_check.hpp"
 #include "frontend/frontend_cache.hpp"
@@ -112,6 +113,7 @@ std::optional<ir::Scene> compile_trees(TreeSource& trees, const SceneFile& scene
   const auto end = static_cast<std::uint32_t>(sources.text(scene.file).size());
   if (readable && complete) check_scene(session, {scene.file, end, end}, lowering);
   if (sink.has_errors()) return std::nullopt;
+  lint_scene(session);
   session.builder.set_render(lowering.render(), lowering.render_origin());
   return session.builder.finish();
 }

@@ -10,28 +10,9 @@
 
 namespace scenec::frontend {
 
-namespace {
-constexpr std::size_t max_expansion_notes = 8;
-}
-
 Session::Session(const CompileOptions& compile_options, FileSystem& file_system,
                  SourceMap& source_map, DiagnosticSink& diagnostic_sink)
     : options(compile_options), files(file_system), sources(source_map), sink(diagnostic_sink) {}
-
-void Session::report(Diagnostic diagnostic) {
-  std::size_t notes = 0;
-  for (auto expansion = expansions_.rbegin(); expansion != expansions_.rend(); ++expansion) {
-    if (notes++ == max_expansion_notes) {
-      diagnostic.notes.push_back(
-          {fmt::format("and {} more calls further out", expansions_.size() - max_expansion_notes),
-           {}});
-      break;
-    }
-    diagnostic.notes.push_back(
-        {fmt::format("expanded from `{}` here", printable(expansion->name)), expansion->span});
-  }
-  sink.report(std::move(diagnostic));
-}
 
 Value Session::error(DiagnosticKind kind, Span span, std::string message) {
   report(Diagnostic(kind, span, std::move(message)));
@@ -51,13 +32,13 @@ void Session::lint(Diagnostic diagnostic) {
   if (!is_allowed(diagnostic.kind)) report(std::move(diagnostic));
 }
 
-Session::Expanding::Expanding(Session& owner, std::string_view name, Span span)
+Session::Expanding::Expanding(Session& owner, Callee kind, std::string_view name, Span span)
     : session(owner), before(owner.expansion_origin_) {
   if (!session.checking_only()) {
     session.expansion_origin_ =
         session.shared_origin({span, before, ir::OriginKind::expanded_from});
   }
-  session.expansions_.push_back({name, span});
+  session.expansions_.push_back({kind, name, span});
 }
 
 Session::Expanding::~Expanding() {
@@ -68,7 +49,9 @@ Session::Expanding::~Expanding() {
 ir::OriginId Session::add_origin(Span span) {
   const auto kind =
       expansion_origin_.valid() ? ir::OriginKind::expanded_from : ir::OriginKind::written;
-  return shared_origin({span, expansion_origin_, kind});
+  const ir::OriginId origin = shared_origin({span, expansion_origin_, kind});
+  if (!allowed_.empty()) allowed_at_.try_emplace(origin.value(), allowed_);
+  return origin;
 }
 
 ir::OriginId Session::shared_origin(const ir::Origin& origin) {
@@ -80,11 +63,44 @@ ir::OriginId Session::shared_origin(const ir::Origin& origin) {
   return recent.id;
 }
 
+namespace {
+// Exact as far as anyone reads digits.
+std::string count_text(std::uint64_t count) {
+  constexpr std::uint64_t readable = 1'000'000'000'000;
+  return count > readable ? fmt::format("{:.1e}", static_cast<double>(count))
+                          : std::to_string(count);
+}
+}  // namespace
+
 bool Session::exhausted(Span where) {
   if (!std::exchange(exhaustion_reported_, true)) {
     error(DiagnosticKind::too_many_steps, where,
           fmt::format("evaluating the scene takes more than {} steps", options.max_steps));
   }
+  return false;
+}
+
+bool Session::affords(std::uint64_t items, std::uint64_t steps, Span where) {
+  const std::uint64_t items_left = options.max_items - std::min(items_, options.max_items);
+  if (items > items_left) {
+    items_ = options.max_items + 2;  // as if they had been placed
+    error(Diagnostic(DiagnosticKind::too_many_items, where,
+                     fmt::format("this places at least {} items; the scene may place {}",
+                                 count_text(items), options.max_items))
+              .hint("`--max-items` sets the limit"));
+    return false;
+  }
+  if (steps <= options.max_steps - std::min(steps_, options.max_steps)) return true;
+  steps_ = options.max_steps + 1;
+  return exhausted(where);
+}
+
+bool Session::deep_enough(std::size_t calls, Span where) {
+  if (calls < max_call_depth && !stack_.nearly_full()) return true;
+  error(Diagnostic(DiagnosticKind::calls_too_deep, where,
+                   calls < max_call_depth
+                       ? std::string("calls and blocks are nested too deeply for the stack")
+                       : fmt::format("calls are nested deeper than {}", max_call_depth)));
   return false;
 }
 

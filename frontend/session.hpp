@@ -15,6 +15,7 @@
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
 #include "base/source_map.hpp"
+#include "base/stack_guard.hpp"
 #include "frontend/compile.hpp"
 #include "frontend/eval/value.hpp"
 #include "ir/builder.hpp"
@@ -29,6 +30,7 @@ inline constexpr std::uint64_t max_asset_bytes = std::uint64_t{2} << 30;
 inline constexpr std::uint64_t steps_per_list_element = 64;
 inline constexpr std::uint64_t steps_per_scope = 32;
 inline constexpr std::uint64_t steps_per_call = 192;
+inline constexpr std::size_t max_call_depth = 512;
 
 class Session {
  public:
@@ -69,6 +71,12 @@ class Session {
   // Reports unless an `@allow` of an item around it names the lint.
   void lint(Diagnostic diagnostic);
   [[nodiscard]] bool is_allowed(DiagnosticKind kind) const;
+  // A lint about something placed, found when all is placed: reports it at its head and with the
+  // calls that led there, unless an `@allow` round it names the lint. Of very many the rest is
+  // lost.
+  void lint_item(Diagnostic diagnostic, ir::OriginId origin);
+  // The words before the block of what was placed there; of a library's items the author's call.
+  [[nodiscard]] Span head_of(ir::OriginId origin) const;
 
   // The lints allowed for an item and what is inside it.
   struct Allowing {
@@ -84,8 +92,9 @@ class Session {
   };
 
   // One step outwards from expanded text: the call of `name` at `span`.
+  enum class Callee : std::uint8_t { macro, function };
   struct Expanding {
-    Expanding(Session& owner, std::string_view name, Span span);
+    Expanding(Session& owner, Callee kind, std::string_view name, Span span);
     ~Expanding();
     Expanding(const Expanding&) = delete;
     Expanding& operator=(const Expanding&) = delete;
@@ -94,6 +103,17 @@ class Session {
   };
   [[nodiscard]] bool expanding() const { return !expansions_.empty(); }
   [[nodiscard]] ir::OriginId add_origin(Span span);
+  // `file` is a text that an include at `use` brought in.
+  void note_include(FileId file, Span use) { includes_.try_emplace(file.value(), use); }
+
+  // What is evaluated now reports nothing: it will be evaluated again.
+  struct Muted {
+    explicit Muted(Session& owner) : session(owner) { ++session.muted_; }
+    ~Muted() { --session.muted_; }
+    Muted(const Muted&) = delete;
+    Muted& operator=(const Muted&) = delete;
+    Session& session;
+  };
 
   // ---- budgets
   // False when the budget is used up (reported once); loops then end.
@@ -102,6 +122,11 @@ class Session {
     return steps_ <= options.max_steps || exhausted(where);
   }
   [[nodiscard]] bool out_of_steps() const { return steps_ > options.max_steps; }
+  // What is about to be run takes at least that many items and steps; false (reported once at
+  // `where`) when the budgets cannot pay for it. Nothing is placed from then on.
+  bool affords(std::uint64_t items, std::uint64_t steps, Span where);
+  // False (reported at `where`) when calls or blocks nest deeper than can be followed.
+  bool deep_enough(std::size_t calls, Span where);
   // Counts a placed item or light; false when there are too many (reported once).
   bool count_item(Span where);
   [[nodiscard]] std::uint64_t item_count() const { return items_; }
@@ -117,12 +142,16 @@ class Session {
  private:
   bool exhausted(Span where);
   [[nodiscard]] ir::OriginId shared_origin(const ir::Origin& origin);
+  void add_trail(Diagnostic& diagnostic) const;
+  [[nodiscard]] bool in_library(Span span) const;
 
   struct Expansion {
+    Callee kind;
     std::string_view name;
     Span span;
   };
   int checking_ = 0;
+  int muted_ = 0;
   int running_ = 0;
   std::vector<DiagnosticKind> allowed_;
   std::vector<Expansion> expansions_;
@@ -133,9 +162,13 @@ class Session {
     ir::OriginId id;
   };
   std::array<RecentOrigin, 64> recent_origins_{};
+  std::unordered_map<std::uint32_t, std::vector<DiagnosticKind>> allowed_at_;  // by origin
+  std::size_t item_lints_ = 0;
   std::uint64_t steps_ = 0;
   std::uint64_t items_ = 0;
   bool exhaustion_reported_ = false;
+  StackGuard stack_;
+  std::unordered_map<std::uint32_t, Span> includes_;  // by file: the first include that names it
   std::unordered_map<std::string, ir::AssetId> assets_;
 };
 

@@ -5,19 +5,12 @@
 #include <cmath>
 
 #include "base/text.hpp"
-#include "frontend/check/key_name.hpp"
+#include "frontend/check/place_of.hpp"
+#include "frontend/check/profile.hpp"
 
 namespace scenec::frontend {
 
 namespace {
-
-// Where a key is written, or the head of the block.
-template <class T, class Owner, class Member>
-Span place_of(const BlockChecker& checker, Member Owner::* member, Span head) {
-  const Field* field = checker.written(key_name<T>(member));
-  if (field == nullptr) return head;
-  return field->expression ? field->expression.span() : field->name_node.span();
-}
 
 struct Vector {
   double x, y, z;
@@ -58,6 +51,43 @@ void check_shape(Session& session, const ir::Box& box, const BlockChecker& check
                               key_name<ir::Box>(&ir::Box::max), key_name<ir::Box>(&ir::Box::min)));
     return;
   }
+}
+
+// The sine of the angle at a corner below which a face has no area to speak of.
+bool is_flat(const ir::Point3& a, const ir::Point3& b, const ir::Point3& c) {
+  const Vector u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
+  return is_zero(u) || is_zero(v) || parallel(u, v);
+}
+
+void lint_flat(Session& session, std::string_view kind, Span place, std::string_view why) {
+  session.lint(Diagnostic(DiagnosticKind::degenerate_faces, place,
+                          fmt::format("the {} has no area: {}", kind, why))
+                   .hint("nothing of it can be seen; leave it out or move a corner"));
+}
+
+void check_shape(Session& session, const ir::Triangle& triangle, const BlockChecker& checker,
+                 Span head) {
+  const auto& v = triangle.vertices;
+  if (v[0] != v[1] && v[1] != v[2] && v[2] != v[0] && !is_flat(v[0], v[1], v[2])) return;
+  lint_flat(session, "triangle", place_of<ir::Triangle>(checker, &ir::Triangle::vertices, head),
+            "its corners lie on one line");
+}
+
+void check_shape(Session& session, const ir::Quad& quad, const BlockChecker& checker, Span head) {
+  if (!is_flat({0, 0, 0}, quad.edge_u, quad.edge_v)) return;
+  lint_flat(session, "quad", place_of<ir::Quad>(checker, &ir::Quad::edge_v, head),
+            "its edges are parallel or zero");
+}
+
+void check_shape(Session& session, const ir::Revolve& revolve, const BlockChecker& checker,
+                 Span head) {
+  const double radius = smallest_radius(revolve.profile);
+  if (!(radius < 0)) return;
+  session.lint(
+      Diagnostic(DiagnosticKind::negative_radius,
+                 place_of<ir::Revolve>(checker, &ir::Revolve::profile, head),
+                 fmt::format("the profile reaches a radius of {} m", short_number_text(radius)))
+          .hint("move its points to radii of at least 0 m"));
 }
 
 void check_shape(Session& session, const ir::Cylinder& cylinder, const BlockChecker& checker,

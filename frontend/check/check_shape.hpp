@@ -15,6 +15,11 @@ namespace scenec::frontend {
 template <class T>
 void check_shape(Session&, const T&, const BlockChecker&, Span) {}  // most shapes have no such rule
 void check_shape(Session& session, const ir::Box& box, const BlockChecker& checker, Span head);
+void check_shape(Session& session, const ir::Triangle& triangle, const BlockChecker& checker,
+                 Span head);
+void check_shape(Session& session, const ir::Quad& quad, const BlockChecker& checker, Span head);
+void check_shape(Session& session, const ir::Revolve& revolve, const BlockChecker& checker,
+                 Span head);
 void check_shape(Session& session, const ir::Cylinder& cylinder, const BlockChecker& checker,
                  Span head);
 void check_shape(Session& session, const ir::Mesh& mesh, const BlockChecker& checker, Span head);

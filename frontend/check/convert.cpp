@@ -186,6 +186,14 @@ bool convert(const KeyContext& key, const Value& value, ir::Transform& out) {
   if (transform.poisoned() || !transform.known) return false;
   if (!check_invertible(key.session, transform.transform(), key.need.span())) return false;
   out = transform.transform();
+  const double determinant = ir::determinant(out);
+  if (determinant < 0) {
+    key.session.lint(
+        Diagnostic(DiagnosticKind::mirrored_transform, key.need.span(),
+                   fmt::format("the transform mirrors: its determinant is {}",
+                               short_number_text(determinant)))
+            .hint("use an even number of negative factors, or a rotation by `180deg`"));
+  }
   return true;
 }
 

@@ -80,6 +80,14 @@ bool check_invertible(Session& session, const ir::Transform& transform, Span spa
   }
   if (is_pure_move(transform)) return true;
   const double condition = condition_number(transform);
+  if (condition > flat_condition && condition <= max_condition) {
+    session.lint(Diagnostic(DiagnosticKind::nearly_singular_transform, span,
+                            fmt::format("the transform flattens: its condition number is {}",
+                                        short_number_text(condition)))
+                     .note("accumulated: " + matrix_text(transform))
+                     .hint("keep the largest stretch below 8e6 times the smallest, or give the "
+                           "shape its flat form by its own keys"));
+  }
   if (condition <= max_condition) return true;
   session.error(Diagnostic(DiagnosticKind::singular_transform, span,
                            std::isinf(condition)

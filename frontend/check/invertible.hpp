@@ -15,6 +15,9 @@ inline constexpr double max_condition = 1e12;  // beyond it fewer than four digi
 // Condition number of the linear part in the Frobenius norm (between one and three times that of
 // the 2-norm); infinite when it is singular or not finite.
 [[nodiscard]] double condition_number(const ir::Transform& transform);
+// From here on a transform is linted: taken back through it, a position keeps no digit of single
+// precision.
+inline constexpr double flat_condition = 0x1p23;
 // Reports a singular or nearly singular transform, with the transform.
 bool check_invertible(Session& session, const ir::Transform& transform, Span span);
 

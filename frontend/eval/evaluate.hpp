@@ -59,8 +59,12 @@ class Evaluator {
     Evaluator& evaluator;
   };
   Value recursion(grammar::NodeRef call, std::string_view name, grammar::NodeRef declaration);
-  // A function's body, checked with its parameters' types.
-  void check_function(grammar::NodeRef function, Scope& scope);
+  // A function's body, checked with its parameters' types; what it returns, as far as types say.
+  Value check_function(grammar::NodeRef function, Scope& scope);
+  // False (reported at `call`) when calls are nested too deeply for one more.
+  [[nodiscard]] bool may_go_deeper(grammar::NodeRef call) {
+    return session_.deep_enough(active_.size(), call.span());
+  }
 
  private:
   Value number_literal(grammar::NodeRef node);

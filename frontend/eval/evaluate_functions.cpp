@@ -162,7 +162,7 @@ void Evaluator::check_defaults(NodeRef parameter_list, Scope& scope) {
   }
 }
 
-void Evaluator::check_function(NodeRef function, Scope& scope) {
+Value Evaluator::check_function(NodeRef function, Scope& scope) {
   check_defaults(ast::item_of(function).parameters, scope);
   const Session::CheckOnly check(session_);
   const Activating activating(*this, function);
@@ -171,10 +171,9 @@ void Evaluator::check_function(NodeRef function, Scope& scope) {
   bind_unknown_parameters(parts.parameters, inside);
   const auto type = parts.type ? read_type(session_, parts.type) : std::nullopt;
   const Value value = evaluate(parts.expression, inside);
-  if (!parts.expression || !parts.name) return;
+  if (!parts.expression || !parts.name) return {};
   const Need need{.subject = parts.name.text(), .function = {}, .node = parts.expression};
-  static_cast<void>(type ? coerce(session_, value, *type, need)
-                         : coerce_named(session_, value, need));
+  return type_of(type ? coerce(session_, value, *type, need) : coerce_named(session_, value, need));
 }
 
 Value Evaluator::call_binding(NodeRef node, NodeRef callee, Scope::Found found, Scope& scope) {
@@ -194,8 +193,13 @@ Value Evaluator::call_binding(NodeRef node, NodeRef callee, Scope::Found found, 
   if (!bind_arguments(parts.parameters, node.find_child(SyntaxKind::arguments), node, callee.text(),
                       scope, inside))
     return {};
+  // Of a checked body the type of the result is known; going through it again for every call would
+  // take time that doubles with each function that calls another one twice.
+  if (session_.checking_only() && found.binding->checked) return found.binding->value;
+  if (!may_go_deeper(node)) return {};
   const Activating activating(*this, declaration);
-  const Session::Expanding expanding(session_, callee.text(), node.span());
+  const Session::Expanding expanding(session_, Session::Callee::function, callee.text(),
+                                     node.span());
   const Value value = evaluate(parts.expression, inside);
   if (!parts.expression) return {};
   const Need need{.subject = callee.text(), .function = {}, .node = parts.expression};

@@ -37,6 +37,7 @@ struct Binding {
   BindingKind kind = BindingKind::let;
   bool used = false;
   bool lint_unused = true;  // false: allowed, or no author's declaration
+  bool checked = false;     // a function whose result `value` is the type of
   Value value;              // of kinds with a value
   grammar::NodeRef node;    // the declaration: functions and macros are run from it
 };

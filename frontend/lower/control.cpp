@@ -12,6 +12,15 @@ namespace scenec::frontend {
 
 using grammar::SyntaxKind;
 
+// Whether the loop or call can be run within the limits; what is run already has been asked for.
+bool Lowering::affordable(NodeRef node, Scope& scope) {
+  if (session_.running()) return true;
+  const Amount least = item_bound_.of(node, scope);
+  const NodeRef head = node.find_child(node.is(SyntaxKind::call_item) ? SyntaxKind::qualified_name
+                                                                      : SyntaxKind::keyword);
+  return session_.affords(least.items, least.steps, head ? head.span() : node.span());
+}
+
 // The block in a scope of its own.
 void Lowering::body(NodeRef block, Scope& scope, const Surroundings& around) {
   Scope inside(&scope);
@@ -30,7 +39,7 @@ void Lowering::for_loop(NodeRef node, Scope& scope, const Surroundings& around) 
     const Session::CheckOnly check(session_);
     evaluator_.loop(parts, scope, round);
   }
-  if (session_.checking_only()) return;
+  if (session_.checking_only() || !affordable(node, scope)) return;
   const Session::Running run(session_);
   evaluator_.loop(parts, scope, round);
 }
@@ -125,7 +134,8 @@ void Lowering::macro_call(NodeRef node, Scope& scope, const Surroundings& around
       evaluator_.bind_arguments(parts.parameters, arguments, node, name.text(), scope, inside);
   if (!sound || session_.checking_only() || !parts.block) return;
   const Evaluator::Activating activating(evaluator_, declaration);
-  const Session::Expanding expanding(session_, name.text(), node.span());
+  if (!affordable(node, scope) || !evaluator_.may_go_deeper(node)) return;
+  const Session::Expanding expanding(session_, Session::Callee::macro, name.text(), node.span());
   body(parts.block, inside, around);
 }
 

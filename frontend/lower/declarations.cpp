@@ -125,7 +125,14 @@ void Lowering::declare_function(NodeRef node, Scope& scope, BindingKind kind) {
   if (!parts.name) return;
   declare(scope, parts.name, kind, {}, node);
   if (session_.running()) return;
-  if (kind == BindingKind::function) return evaluator_.check_function(node, scope);
+  if (kind == BindingKind::function) {
+    Value result = evaluator_.check_function(node, scope);
+    Binding* const binding = scope.find_here(parts.name.text());
+    if (binding == nullptr || binding->node != node) return;  // declared twice
+    binding->value = std::move(result);
+    binding->checked = true;
+    return;
+  }
   if (!parts.block) return;
   evaluator_.check_defaults(parts.parameters, scope);
   const Session::CheckOnly check(session_);

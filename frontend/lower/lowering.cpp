@@ -50,6 +50,7 @@ bool is_called(const DiagnosticKindInfo& info, std::string_view word) {
 Lowering::Lowering(Session& session)
     : session_(session),
       evaluator_(session),
+      item_bound_(session, evaluator_),
       proto_gaps_(session.builder),
       modules_(std::make_unique<Modules>(*this, session)) {}
 Lowering::~Lowering() = default;
@@ -105,6 +106,7 @@ void Lowering::declare_all(const grammar::SyntaxTree& tree, Scope& scope) {
 }
 
 void Lowering::items(NodeRef block, Scope& scope, const Surroundings& around, Pass pass) {
+  if (!session_.deep_enough(0, block.span())) return;
   for (NodeRef child : block.children()) {
     if (!is_item(child.kind())) continue;
     const bool declaration = is_declaration(child.kind());

@@ -15,6 +15,7 @@
 #include "frontend/check/check_block.hpp"
 #include "frontend/check/fields.hpp"
 #include "frontend/eval/evaluate.hpp"
+#include "frontend/lower/item_bound.hpp"
 #include "frontend/lower/placement.hpp"
 #include "frontend/lower/proto_gaps.hpp"
 #include "frontend/part_reader.hpp"
@@ -119,10 +120,12 @@ class Lowering final : public FieldCollector {
   void if_chain(NodeRef node, Scope& scope, const Surroundings& around);
   void assertion(NodeRef node, Scope& scope);
   void macro_call(NodeRef node, Scope& scope, const Surroundings& around);
+  [[nodiscard]] bool affordable(NodeRef node, Scope& scope);
   void body(NodeRef block, Scope& scope, const Surroundings& around);
 
   Session& session_;
   Evaluator evaluator_;
+  ItemBound item_bound_;
   std::deque<Fields> field_pool_;  // one a level of nesting, reused
   std::size_t field_depth_ = 0;
   FileId main_file_;

@@ -42,6 +42,7 @@ Modules::Place Modules::place_of(const std::string& written, FileId from) const 
 }
 
 bool Modules::parse(FileId file, std::string_view text, NodeRef use, Module& module) {
+  session_.note_include(file, use.span());
   source_bytes_ += text.size();
   const std::uint64_t most = session_.options.source.total_bytes;
   if (source_bytes_ > most) {

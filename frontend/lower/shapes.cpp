@@ -7,6 +7,7 @@
 #include "frontend/check/check_shape.hpp"
 #include "frontend/check/invertible.hpp"
 #include "frontend/check/key_name.hpp"
+#include "frontend/check/lint_material.hpp"
 #include "frontend/lower/lowering_access.hpp"
 
 namespace scenec::frontend {
@@ -169,6 +170,8 @@ void Lowering::read_material(const ast::Item& parts, NodeRef node, Scope& scope,
     checker.read(kind);
     checker.read(common);
     checker.template finish<T, ir::MaterialCommon>();
+    if (checker.sound() && !session_.checking_only())
+      lint_material(session_, kind, checker, parts.kind.span());
     close(inside);
   }
   if (session_.checking_only()) return;

@@ -66,7 +66,7 @@ inline const std::string camera =
 inline const std::string lit = "light: point { position = [0, 5, 0]; power = 100W; }\n";
 // A scene around some items that has everything else.
 inline std::string scene_with(const std::string& items) {
-  return "sdl 1;\nmaterial grey: diffuse { color = gray(0.5); }\nsphere { material = grey; }\n" +
+  return "sdl 1;\nmaterial grey: diffuse { color = gray(0.5); }\nsphere { center = [0, 0, -90]; material = grey; }\n" +
          items + "\n" + camera + lit;
 }
 
