@@ -54,7 +54,7 @@ class Faces {
     out_.push_back(face);
   }
 
-  const ir::Transform& transform_;
+  ir::Transform transform_;
   std::uint32_t item_;
   std::vector<Face>& out_;
 };
