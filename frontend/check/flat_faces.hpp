@@ -29,7 +29,7 @@ inline Vector scaled(const Vector& v, double s) {
 }
 
 // Which way a face looks, along its canonical normal.
-enum class Facing : std::int8_t { back = -1, both = 0, front = 1 };
+enum class Facing : std::int8_t { back, front };
 
 // A flat convex face with up to four corners; none: an unbounded plane. The normal points into the
 // half-space of directions whose first component that is not zero is positive.
@@ -38,7 +38,7 @@ struct Face {
   double offset = 0;
   std::array<Vector, 4> corners{};
   std::uint8_t corner_count = 0;
-  Facing facing = Facing::both;
+  Facing facing = Facing::front;
   std::uint32_t item = 0;
   double reach = 0;  // largest coordinate
   double low = 0;    // along the axis of the sweep

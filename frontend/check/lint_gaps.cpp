@@ -28,7 +28,6 @@ namespace {
 using flat::cross;
 using flat::dot;
 using flat::Face;
-using flat::Facing;
 using flat::operator-;
 
 // Do they overlap by more than `margin` along every direction of the plane that could separate
@@ -110,9 +109,7 @@ void GapLinter::pair(const Face& a, const Face& b) {
   const bool refracts = transparency_.refracts(items_[a.item].material) ||
                         transparency_.refracts(items_[b.item].material);
   // An opaque thing that stands on another hides both surfaces.
-  const bool face_each_other =
-      a.facing != Facing::both && b.facing != Facing::both && a.facing != b.facing;
-  if (!refracts && face_each_other) return;
+  if (!refracts && a.facing != b.facing) return;
   const double distance = std::max(std::fabs(a.offset), std::min(a.reach, b.reach));
   const double spacing = float_spacing(distance);
   const double gap = std::fabs(a.offset - b.offset);

@@ -48,6 +48,8 @@ TEST(Lints, thin_gaps) {
       // What stands on the floor hides both surfaces; what is flush with it does not.
       {floor_plane + "box { min = [0, -3, 0]; max = [1, 0, 1]; material = red; }", ""},
       {floor_plane + "box { min = [0, -4, 0]; max = [1, -3, 1]; material = red; }", "L0310"},
+      {paper + "material = red; }\nbox { min = [0, -3, 0]; max = [1, 0, 1]; material = grey; }",
+       ""},
       {"box { min = [0, 5, 0]; max = [1, 6, 1]; material = red; }\n"
        "box { min = [1, 5, 0]; max = [2, 6, 1]; material = grey; }",
        ""},
@@ -58,7 +60,7 @@ TEST(Lints, thin_gaps) {
        "cylinder { base = [0, 4, 0]; top = [0, 5, 0]; radius = 0.5; material = grey; }",
        "L0310"},
       {"group { transform = [rotate_z(30deg), move([0, 7, 0])]; material = red; box { min = [0, 0, "
-       "0]; max = [1, 1, 1]; } quad { corner = [0, 1, 0]; edge_u = [1, 0, 0]; edge_v = [0, 0, 1]; "
+       "0]; max = [1, 1, 1]; } quad { corner = [0, 1, 0]; edge_u = [0, 0, 1]; edge_v = [1, 0, 0]; "
        "material = grey; } }",
        "L0310"},
       {"sphere { center = [9, 9, 9]; radius = 1; material = red; }\n"
