@@ -29,7 +29,7 @@ inline constexpr std::uint64_t max_asset_bytes = std::uint64_t{2} << 30;
 // besides.
 inline constexpr std::uint64_t steps_per_list_element = 64;
 inline constexpr std::uint64_t steps_per_scope = 32;
-inline constexpr std::uint64_t steps_per_call = 192;
+inline constexpr std::uint64_t steps_per_call = 384;
 inline constexpr std::size_t max_call_depth = 512;
 
 class Session {

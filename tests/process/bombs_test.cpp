@@ -63,6 +63,7 @@ TEST(Bombs, TenLevelsOfTenMacros) {
                   }) +
            "m10();\n" + ball;
   };
+  expect_limit("macros.sdl", macros(ball), "E0721");
   // What places nothing takes time only.
   expect_limit("hollow.sdl", macros("assert true; "), "E0720");
 }
