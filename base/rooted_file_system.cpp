@@ -177,6 +177,9 @@ Result<FileContent, FileError> RootedFileSystem::read(const std::string& path,
   if (is_permitted(path)) return disk_.read(path, size_limit);
   const auto file = open(path, Purpose::read);
   if (!file) return Failure{file.error()};
+  struct stat info{};
+  if (refuses_hard_links_ && ::fstat(file.value().number(), &info) == 0 && info.st_nlink > 1)
+    return Failure{FileError::outside_root};
   return read_descriptor(file.value(), size_limit);
 }
 
@@ -189,8 +192,9 @@ bool RootedFileSystem::is_file(const std::string& path) {
 
 std::string RootedFileSystem::reason_of(FileError error) const {
   if (error != FileError::outside_root) return std::string(text_of(error));
-  return fmt::format("lies outside the root `{}` (`--root DIR` moves it)",
-                     printable(shown_root_, shown_root_.size()));
+  return fmt::format("lies outside the root `{}` (`--root DIR` moves it){}",
+                     printable(shown_root_, shown_root_.size()),
+                     refuses_hard_links_ ? " or is a hard link, which `--strict-links` refuses" : "");
 }
 
 }  // namespace scenec

@@ -1,7 +1,8 @@
 // The disk beneath one directory. Every path is followed from a handle of that directory and never
 // leaves it: `..`, absolute paths, symbolic links and the links of /proc count by where they lead,
 // and no time passes between the check and the opening. Hard links are files like any other: who
-// can make one beneath the root may write there.
+// can make one beneath the root may write there; where that is not enough, `refuse_hard_links`
+// treats files with a second name as lying outside.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +28,8 @@ class RootedFileSystem final : public FileSystem {
   // A path the user gave himself, read wherever it leads.
   void permit(std::string path) { permitted_.push_back(std::move(path)); }
 
+  void refuse_hard_links() { refuses_hard_links_ = true; }
+
   // As RealFileSystem; `outside_root` says nothing of whether the file exists.
   Result<FileContent, FileError> read(const std::string& path, std::uint64_t size_limit) override;
   bool is_file(const std::string& path) override;
@@ -44,6 +47,7 @@ class RootedFileSystem final : public FileSystem {
   Descriptor root_;
   FileError root_error_ = FileError::not_found;
   Walk walk_;
+  bool refuses_hard_links_ = false;
   RealFileSystem disk_;
   std::vector<std::string> permitted_;
 };

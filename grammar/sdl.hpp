@@ -205,7 +205,7 @@ struct material
       makes_node<Kind::material> {};
 struct light : peg::seq<lex::keyword<'l', 'i', 'g', 'h', 't'>, peg::opt<lex::name>, model>,
                makes_node<Kind::light> {};
-struct camera : peg::seq<lex::keyword<'c', 'a', 'm', 'e', 'r', 'a'>, expect<declared_name>, model>,
+struct camera : peg::seq<lex::keyword<'c', 'a', 'm', 'e', 'r', 'a'>, peg::opt<lex::name>, model>,
                 makes_node<Kind::camera> {};
 struct render : peg::seq<lex::keyword<'r', 'e', 'n', 'd', 'e', 'r'>, expect<block>>,
                 makes_node<Kind::render> {};

@@ -17,16 +17,6 @@ std::uint32_t hash_of(const Transform& transform) {
       hash_bytes({reinterpret_cast<const char*>(transform.m.data()), sizeof transform.m}).low);
 }
 
-// The slot that holds the row, or the first free one on its way.
-template <class Slots, class IsSame>
-auto& slot_of(Slots& index, std::uint32_t hash, IsSame&& is_same) {
-  const std::size_t mask = index.size() - 1;
-  std::size_t slot = hash & mask;
-  while (index[slot].row.valid() && !(index[slot].hash == hash && is_same(index[slot].row)))
-    slot = (slot + 1) & mask;
-  return index[slot];
-}
-
 }  // namespace
 
 SceneBuilder::SceneBuilder() {
@@ -53,22 +43,12 @@ TextureId SceneBuilder::add_texture(TextureNode texture) {
 TransformId SceneBuilder::add_transform(const Transform& transform) {
   // The identity is the first row and by far the most frequent question.
   if (scene_.transforms.size() > 0 && transform.is_identity()) return TransformId(0);
-  if (3 * (scene_.transforms.size() + 1) > 2 * transform_index_.size()) grow_transform_index();
   const std::uint32_t hash = hash_of(transform);
-  TransformSlot& slot = slot_of(transform_index_, hash, [&](TransformId row) {
-    return scene_.transforms.holds(row, transform);
-  });
-  if (!slot.row.valid()) slot = {scene_.transforms.push(transform), hash};
+  TransformSlot& slot = recent_transforms_[hash & (remembered_transforms - 1)];
+  const bool same =
+      slot.row.valid() && slot.hash == hash && scene_.transforms.holds(slot.row, transform);
+  if (!same) slot = {scene_.transforms.push(transform), hash};
   return slot.row;
-}
-
-void SceneBuilder::grow_transform_index() {
-  constexpr std::size_t smallest = 16;
-  std::vector<TransformSlot> larger(std::max(smallest, 2 * transform_index_.size()));
-  for (const TransformSlot& slot : transform_index_) {
-    if (slot.row.valid()) slot_of(larger, slot.hash, [](TransformId) { return false; }) = slot;
-  }
-  transform_index_ = std::move(larger);
 }
 
 ShapeRef SceneBuilder::add_shape(const Instance& instance) {
@@ -103,9 +83,9 @@ void SceneBuilder::set_render(RenderSettings settings, OriginId origin) {
 }
 
 Scene SceneBuilder::finish() {
-  transform_index_ = {};  // memory the next step may need
   SCENEC_ASSERT(find_violations(scene_).empty());
   scene_.hash = content_hash(scene_);
+  std::fill(recent_transforms_.begin(), recent_transforms_.end(), TransformSlot{});
   return std::exchange(scene_, Scene{});
 }
 

@@ -20,7 +20,8 @@ class SceneBuilder {
   NameId add_name(std::string_view name);  // equal names share an id; "" gives the invalid id
   AssetId add_asset(Asset asset);          // a second asset of the same path gives the first id
   TextureId add_texture(TextureNode texture);
-  TransformId add_transform(const Transform& transform);  // equal transforms share an id
+  // Equal transforms share an id, unless thousands of others came between them.
+  TransformId add_transform(const Transform& transform);
   MaterialId add_material(Material material, Declared declared);
   CameraId add_camera(Camera camera, Declared declared);
   Id<Light> add_light(Light light, Declared declared);
@@ -42,18 +43,19 @@ class SceneBuilder {
   [[nodiscard]] Scene finish();
 
  private:
-  void grow_transform_index();
-
   Scene scene_;
   std::unordered_map<std::string, NameId> names_;
   std::unordered_map<std::string, AssetId> assets_;
   std::unordered_map<std::uint32_t, Id<Instance>> instances_;  // by the proto's number
-  // Open addressing over the rows of scene_.transforms; a power of two, at most two thirds full.
+  // The rows of scene_.transforms that were asked for last, each in the place its hash gives it. A
+  // table of all would outgrow the caches with a scene of a million instances, whose transforms
+  // differ anyway.
   struct TransformSlot {
     TransformId row;
     std::uint32_t hash = 0;  // tells most rows apart without reading them
   };
-  std::vector<TransformSlot> transform_index_;
+  static constexpr std::size_t remembered_transforms = 8192;  // a power of two
+  std::vector<TransformSlot> recent_transforms_ = std::vector<TransformSlot>(remembered_transforms);
 };
 
 }  // namespace scenec::ir

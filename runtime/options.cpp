@@ -153,6 +153,12 @@ constexpr std::array option_table{
                 return store_choice<DumpStage>(o.stage, v, names);
               }},
     OptionRow{"--root", "DIR", "read files beneath this directory only", diagnosing, store_root},
+    OptionRow{"--strict-links", "", "read no file that has a second name (a hard link)", diagnosing,
+              [](Options& o, Text) -> Problem {
+                o.strict_links = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
     OptionRow{"--max-items", "N", "limit of placed items (default 2000000)", compiling,
               [](Options& o, Text v) {
                 return store_parsed(o.max_items, parse_whole_number(v, 1, largest_item_limit));

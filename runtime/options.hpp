@@ -49,6 +49,7 @@ struct Options {
 
   // What does not.
   std::string root;  // empty: where the scene lies (runtime/root.hpp)
+  bool strict_links = false;
   std::optional<std::int64_t> max_items;
   std::optional<std::int64_t> max_source;
   std::optional<std::int64_t> max_includes;

@@ -81,6 +81,7 @@ Session::Session(const Options& options)
       scene_path_(path_from_working_directory(options.operands.at(0))),
       disk_(root_of(options, scene_path_)),
       files_(disk_) {
+  if (options.strict_links) disk_.refuse_hard_links();
   disk_.permit(scene_path_);
   if (!options.params_file.empty()) disk_.permit(options.params_file);
 }

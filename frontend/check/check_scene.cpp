@@ -18,6 +18,7 @@ ir::CameraId named_camera(Session& session, NodeRef key) {
   std::vector<std::string_view> names;
   for (std::uint32_t i = 0; i < scene.cameras.size(); ++i) {
     const ir::NameId name = scene.camera_names[Id<ir::Camera>(i)].name;
+    if (!name.valid()) continue;
     names.push_back(scene.names[name]);
     if (names.back() == word) return ir::CameraId(i);
   }

@@ -83,9 +83,9 @@ void Lowering::read_camera(const ast::Item& parts, NodeRef node, Scope& scope,
   if (session_.checking_only()) return;
   ir::CameraKind kind = std::move(camera);
   if (!sound || !bake(session_, around.transform, kind, parts.kind.span())) return;
-  const ir::NameId name = session_.builder.add_name(parts.name.text());
+  const ir::NameId name = parts.name ? session_.builder.add_name(parts.name.text()) : ir::NameId{};
   for (const ir::Declared& other : session_.builder.scene().camera_names) {
-    if (other.name != name) continue;
+    if (!name.valid() || other.name != name) continue;
     session_.error(
         Diagnostic(DiagnosticKind::duplicate_camera, parts.name.span(),
                    fmt::format("there are two cameras `{}`", printable(parts.name.text())))
@@ -110,7 +110,7 @@ void Lowering::camera(NodeRef node, Scope& scope, const Surroundings& around) {
       notes_.second_camera = parts.name ? parts.name.span() : node.span();
     }
   }
-  if (!parts.name || !parts.kind || !parts.block) return;
+  if (!parts.kind || !parts.block) return;
   const bool known = KindDispatch<ir::CameraKind>::call(
       parts.kind.text(), [&]<class T>() { read_camera<T>(parts, node, scope, around); });
   if (!known)

@@ -148,6 +148,16 @@ TEST_P(RootedFiles, HardLinksAreFilesOfTheRoot) {
   EXPECT_EQ(read("hard"), "secret");
 }
 
+TEST_P(RootedFiles, HardLinksAreRefusedWhereAsked) {
+  fs::create_hard_link(outside() + "/secret", root() + "/hard");
+  RootedFileSystem strict(root(), GetParam());
+  strict.refuse_hard_links();
+  const auto hard = strict.read(root() + "/hard", 100);
+  ASSERT_FALSE(hard);
+  EXPECT_EQ(hard.error(), FileError::outside_root);
+  EXPECT_NE(strict.reason_of(hard.error()).find("--strict-links"), std::string::npos);
+}
+
 TEST_P(RootedFiles, TheRootMayBeNamedThroughALink) {
   fs::create_directory_symlink("root", directory_ / "alias");
   RootedFileSystem files(directory_ / "alias", GetParam());

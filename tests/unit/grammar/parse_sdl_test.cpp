@@ -52,6 +52,7 @@ TEST(ParseSdl, placed_items) {
   EXPECT_EQ(item("light: point { }"), "(light light point (block))");
   EXPECT_EQ(item("light key: point { }"), "(light light key point (block))");
   EXPECT_EQ(item("camera main: pinhole { }"), "(camera camera main pinhole (block))");
+  EXPECT_EQ(item("camera: pinhole { }"), "(camera camera pinhole (block))");
   EXPECT_EQ(item("render { stop { time = 2s; } }"),
             "(render render (block (shape stop (block (field time (number_literal 2s))))))");
   EXPECT_EQ(item("row(8, what = leaf,);"),
