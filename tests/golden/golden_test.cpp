@@ -1,7 +1,6 @@
 // Golden texts: parse/ (the lossless tree), lower/ (the IR), effects/ (what the picture depends
-// on), course/ (course scenes as native
-// text), cli/ (command lines and what they print). `golden_test --update` writes `<input>.expected`
-// anew.
+// on), course/ (course scenes as native text), cli/ (command lines and what they print).
+// `golden_test --update` writes `<input>.expected` anew.
 #include <filesystem>
 #include <string>
 #include <vector>

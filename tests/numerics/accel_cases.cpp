@@ -205,7 +205,7 @@ TriangleMesh repeated(const std::function<Triangle(std::uint32_t)>& make) {
   return mesh;
 }
 
-// Inputs on which builders run away. Nodes and depth are the matter of bvh_test.cpp.
+// Inputs on which builders run away. Nodes and depth are the matter of tree_build_test.cpp.
 TEST(G26, BuildBombs) {
   ThreadPool pool(1);
   Draw draw(26);
