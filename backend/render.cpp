@@ -6,10 +6,8 @@
 #include <mutex>
 
 #include "backend/backend.hpp"
-#include "backend/cameras/camera.hpp"
 #include "backend/film/film.hpp"
-#include "backend/film/filter.hpp"
-#include "backend/integrators/tracer.hpp"
+#include "backend/integrators/kernel.hpp"
 
 namespace scenec::backend {
 namespace {
@@ -63,17 +61,12 @@ class Renderer {
   Renderer(const RenderScene& scene, const ir::RenderSettings& settings,
            const ir::EffectSet& effects, ThreadPool& pool, std::stop_token stop,
            const ProgressFunction& progress)
-      : scene_(scene),
-        settings_(settings),
+      : settings_(settings),
         pool_(pool),
         stop_(std::move(stop)),
         start_(Clock::now()),
         progress_(progress, start_),
-        effects_(effects),
-        camera_(scene.scene->cameras[settings.camera], settings.size,
-                effects_.has(ir::Effect::depth_of_field) ? CameraSampler::Lens::simulated
-                                                         : CameraSampler::Lens::left_out),
-        filter_(settings.filter),
+        kernel_(scene, settings, effects),
         film_(settings, settings.stop.error ? Film::Squares::yes : Film::Squares::no),
         cap_(sample_cap(settings)),
         workers_(pool.size()) {
@@ -93,17 +86,11 @@ class Renderer {
     }
     Picture picture = film_.picture();
     picture.complete = complete;
-    for (const Worker& worker : workers_) picture.rays += worker.rays.rays;
+    for (const KernelWorker& worker : workers_) picture.rays += worker.rays.rays;
     return picture;
   }
 
  private:
-  // Workers do not share cache lines.
-  struct alignas(64) Worker {
-    RayCounters rays;
-    BranchStack branches;
-  };
-
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(Clock::now() - start_).count();
   }
@@ -145,74 +132,23 @@ class Renderer {
   }
 
   // False when a stop request came in between.
-  bool render_tile(std::size_t tile, std::int64_t first, std::int64_t count, Worker& worker) {
-    const Tracer tracer(scene_, settings_, effects_, worker.rays);
+  bool render_tile(std::size_t tile, std::int64_t first, std::int64_t count, KernelWorker& worker) {
     const std::size_t x0 = tile % tiles_x_ * tile_side;
     const std::size_t y0 = tile / tiles_x_ * tile_side;
-    const std::size_t x1 = std::min(x0 + tile_side, film_.region_width());
-    const std::size_t y1 = std::min(y0 + tile_side, film_.region_height());
-    for (std::size_t y = y0; y < y1; ++y) {
-      for (std::size_t x = x0; x < x1; ++x) {
-        for (std::int64_t s = first; s < first + count; ++s) {
-          if (stop_.stop_requested()) return false;
-          film_.add(x, y, sample(tracer, x, y, s, worker));
-        }
-      }
-    }
-    return true;
+    const Tile pixels{x0, y0, std::min(x0 + tile_side, film_.region_width()),
+                      std::min(y0 + tile_side, film_.region_height())};
+    return kernel_.render(film_, pixels, {first, first + count}, worker, stop_);
   }
 
-  [[nodiscard]] FilmSample sample(const Tracer& tracer, std::size_t x, std::size_t y,
-                                  std::int64_t number, Worker& worker) const {
-    const std::int64_t px = film_.region().x0 + static_cast<std::int64_t>(x);
-    const std::int64_t py = film_.region().y0 + static_cast<std::int64_t>(y);
-    const auto pixel = static_cast<std::uint64_t>(py * settings_.size.width + px);
-    const Sampler sampler(settings_.sampler, static_cast<std::uint64_t>(settings_.seed), pixel,
-                          static_cast<std::uint64_t>(number));
-    FilmSample out;
-    // film .course: the lower left corner.
-    double film_x = static_cast<double>(px);
-    double film_y = static_cast<double>(py + 1);
-    if (settings_.film == ir::FilmKind::standard) {
-      const FilterSample offset = filter_.sample(sampler.get_2d(dimension::pixel_filter));
-      film_x = static_cast<double>(px) + 0.5 + offset.dx;
-      film_y = static_cast<double>(py) + 0.5 + offset.dy;
-      out.weight = offset.weight;
-    }
-    const Sample2 lens = camera_.has_lens() ? sampler.get_2d(dimension::lens) : Sample2{};
-    const Ray ray = camera_.ray(film_x, film_y, lens);
-    const TracedSample traced = trace(tracer, ray, sampler, worker);
-    out.radiance = traced.radiance;
-    out.covered = traced.covered;
-    out.first = traced.first;
-    return out;
-  }
-
-  [[nodiscard]] TracedSample trace(const Tracer& tracer, const Ray& ray, const Sampler& sampler,
-                                   Worker& worker) const {
-    switch (settings_.method) {
-      case ir::Method::path:
-        return trace_path(tracer, ray, sampler);
-      case ir::Method::whitted:
-        return trace_whitted(tracer, ray, sampler, worker.branches);
-      case ir::Method::phong:
-        return trace_phong(tracer, ray, sampler);
-    }
-    return {};
-  }
-
-  const RenderScene& scene_;
   const ir::RenderSettings& settings_;
   ThreadPool& pool_;
   std::stop_token stop_;
   Clock::time_point start_;
   ProgressReporter progress_;
-  ir::EffectSet effects_;
-  CameraSampler camera_;
-  FilterSampler filter_;
+  TileKernel kernel_;
   Film film_;
   std::int64_t cap_;
-  std::vector<Worker> workers_;
+  std::vector<KernelWorker> workers_;
   std::size_t tiles_x_ = 0;
   std::size_t tiles_y_ = 0;
   bool error_reached_ = false;
