@@ -142,6 +142,11 @@ TEST(TreeBuild, FloatsRoundOutward) {
   EXPECT_EQ(float_above(-0.5), -0.5F);
   EXPECT_LT(float_below(-1e-60), 0.0F);
   EXPECT_GT(float_above(1e-60), 0.0F);
+  // Subnormal planes are slow to multiply by: whatever stands on the ground would have one.
+  EXPECT_TRUE(std::isnormal(float_below(std::nextafter(0.0, -1.0))));
+  EXPECT_TRUE(std::isnormal(float_above(std::nextafter(0.0, 1.0))));
+  EXPECT_EQ(float_below(1e-60), 0.0F);
+  EXPECT_EQ(float_above(-1e-60), 0.0F);
 }
 
 }  // namespace
