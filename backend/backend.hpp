@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "backend/accel/precision.hpp"
+#include "backend/accel/target.hpp"
 #include "base/content_cache.hpp"
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
@@ -35,14 +37,19 @@ using PreparedPtr = std::unique_ptr<PreparedScene, Destroy>;
 using RenderScenePtr = std::unique_ptr<RenderScene, Destroy>;
 
 // Reads and checks every asset the scene names and examines the geometry (degenerate faces, lights
-// inside geometry); reports with origins from the IR. Null when there was an error. A mesh file that
-// `cache` has by the hash the front end took of it is not decoded again; null: no cache.
+// inside geometry); reports with origins from the IR. Null when there was an error. A mesh file
+// that `cache` has by the hash the front end took of it is not decoded again; null: no cache.
 [[nodiscard]] PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
                                   DiagnosticSink& sink, ContentCache* cache = nullptr);
 
-// A tree that `cache` has for a mesh is not built again.
+struct BuildOptions {
+  ContentCache* cache = nullptr;  // a tree it has for a mesh is not built again
+  // May move what is seen by the rounding of a vertex; the picture of either is deterministic.
+  Precision precision = Precision::mixed;
+  Target target = best_target();  // of no influence on any hit
+};
 [[nodiscard]] RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool,
-                                   ContentCache* cache = nullptr);
+                                   const BuildOptions& options = {});
 
 // What the picture depends on, images included, and why (ir/effects.hpp).
 [[nodiscard]] ir::EffectReport find_effects(const RenderScene& scene,

@@ -44,12 +44,12 @@ std::uint32_t RenderScene::emitter_of(const Hit& hit) const {
   return found == instanced_emitters.end() ? RenderItem::none : found->second + hit.primitive;
 }
 
-RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool, ContentCache* cache) {
+RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool, const BuildOptions& options) {
   RenderScenePtr scene(new RenderScene(prepared));
   if (scene->facts.any_facets()) scene->ggx_albedo.emplace();
-  add_items(prepared, *scene, pool, cache);
+  add_items(prepared, *scene, pool, options);
   add_lights(prepared, *scene);
-  scene->accel.build(pool);
+  scene->accel.build(pool, options.target);
   const Bounds3 bounds = scene->accel.bounds();
   if (!bounds.empty() && bounds.finite())
     scene->radius = std::fmax(length(bounds.extent()) / 2, 0x1p-500);

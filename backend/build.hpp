@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "backend/backend.hpp"
 #include "backend/math/transform.hpp"
 #include "backend/render_scene.hpp"
-#include "base/content_cache.hpp"
 #include "base/parallel.hpp"
 
 namespace scenec::backend {
@@ -26,7 +26,7 @@ namespace scenec::backend {
 
 // Adds every item of the world (numbers from 0) and of the protos, and fills `scene.items`.
 void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& pool,
-               ContentCache* cache);
+               const BuildOptions& options);
 // Adds the lights, their shapes, and every emissive item that can be sampled.
 void add_lights(const PreparedScene& prepared, RenderScene& scene);
 

@@ -22,8 +22,9 @@ Vector3 vector_of(const ir::Direction& d) {
 // Shares what can be shared: one accelerator a mesh, a revolve, a proto.
 class ItemAdder {
  public:
-  ItemAdder(const PreparedScene& prepared, RenderScene& out, ThreadPool& pool, ContentCache* cache)
-      : prepared_(prepared), scene_(*prepared.scene), out_(out), pool_(pool), cache_(cache) {}
+  ItemAdder(const PreparedScene& prepared, RenderScene& out, ThreadPool& pool,
+            const BuildOptions& options)
+      : prepared_(prepared), scene_(*prepared.scene), out_(out), pool_(pool), options_(options) {}
 
   void add_all() {
     // World items first, so that ties between them go to the first one placed.
@@ -41,7 +42,7 @@ class ItemAdder {
       auto accel = std::make_shared<SceneAccel>();
       fill(*accel, scene_.protos[ir::ProtoId(static_cast<std::uint32_t>(i))].items,
            first_of_proto_[i]);
-      accel->build(pool_);
+      accel->build(pool_, options_.target);
       protos_[i] = std::move(accel);
     }
     fill(out_.accel, scene_.items, 0);
@@ -76,7 +77,9 @@ class ItemAdder {
     } else if (const auto* triangle = std::get_if<Id<ir::Triangle>>(&item.shape)) {
       const ir::Triangle& shape = scene_.shape(*triangle);
       if (shape.normals || shape.uvs)
-        accel.add_mesh(number, std::make_shared<MeshAccel>(mesh_of(shape), pool_), place, option);
+        accel.add_mesh(number,
+                       std::make_shared<MeshAccel>(mesh_of(shape), pool_, options_.precision),
+                       place, option);
       else
         accel.add(number, kernel_of(shape), place, option);
     } else {
@@ -104,22 +107,24 @@ class ItemAdder {
     if (!slot) {
       const ir::Revolve& shape = scene_.shape(id);
       slot = std::make_shared<MeshAccel>(
-          tessellate(revolve_of(shape), static_cast<std::uint32_t>(shape.steps)), pool_);
+          tessellate(revolve_of(shape), static_cast<std::uint32_t>(shape.steps)), pool_,
+          options_.precision);
     }
     return slot;
   }
   std::shared_ptr<const MeshAccel> made_accel(const std::shared_ptr<const TriangleMesh>& mesh,
                                               const Hash128& mesh_key) {
-    if (cache_ == nullptr || mesh_key == Hash128{})
-      return std::make_shared<const MeshAccel>(mesh, pool_);
-    const Hash128 key = tree_key(mesh_key);
-    if (const auto entry = cache_->find(key)) {
+    ContentCache* const cache = options_.cache;
+    if (cache == nullptr || mesh_key == Hash128{})
+      return std::make_shared<const MeshAccel>(mesh, pool_, options_.precision);
+    const Hash128 key = tree_key(mesh_key, options_.precision);
+    if (const auto entry = cache->find(key)) {
       if (auto accel = decode_tree(entry->bytes, mesh)) return accel;
-      cache_->refuse();
+      cache->refuse();
     }
-    auto accel = std::make_shared<const MeshAccel>(mesh, pool_);
+    auto accel = std::make_shared<const MeshAccel>(mesh, pool_, options_.precision);
     const EncodedTree encoded(*accel, *mesh);
-    cache_->store(key, encoded.pieces());
+    cache->store(key, encoded.pieces());
     return accel;
   }
   std::shared_ptr<const Revolve> revolve_accel(Id<ir::Revolve> id) {
@@ -132,7 +137,7 @@ class ItemAdder {
   const ir::Scene& scene_;
   RenderScene& out_;
   ThreadPool& pool_;
-  ContentCache* cache_;
+  const BuildOptions& options_;
   // With an instance that replaces materials by a transparent one, any item may have to be asked.
   bool overridden_ = has_transparent_override();
   std::vector<std::uint32_t> first_of_proto_;
@@ -230,8 +235,8 @@ Revolve revolve_of(const ir::Revolve& r) {
 }
 
 void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& pool,
-               ContentCache* cache) {
-  ItemAdder(prepared, scene, pool, cache).add_all();
+               const BuildOptions& options) {
+  ItemAdder(prepared, scene, pool, options).add_all();
 }
 
 }  // namespace scenec::backend

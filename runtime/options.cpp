@@ -90,6 +90,15 @@ Problem store_root(Options& options, std::string_view text) {
   return std::nullopt;
 }
 
+Problem store_target(Options& options, std::string_view text) {
+  options.target = backend::find_target(text);
+  if (options.target) return std::nullopt;
+  std::vector<std::string_view> names{"auto"};
+  for (const backend::Target target : backend::available_targets())
+    names.push_back(backend::name_of(target));
+  return fmt::format("an instruction set of this machine: one of {}", quoted_list(names));
+}
+
 using Text = std::string_view;
 constexpr std::array option_table{
     OptionRow{"-o,--output", "FILE", "where to write (render: .png, .exr or .bmp)", writing,
@@ -141,6 +150,17 @@ constexpr std::array option_table{
                 return std::nullopt;
               },
               ValueNeed::none},
+    OptionRow{"--precision", "NAME", "vertices of meshes: mixed (default) or double", render_only,
+              [](Options& o, Text v) {
+                constexpr std::array<Text, 2> names{"mixed", "double"};
+                std::optional<backend::Precision> precision;
+                const Problem problem = store_choice<backend::Precision>(precision, v, names);
+                o.precision = precision.value_or(o.precision);
+                return problem;
+              }},
+    OptionRow{"--target", "NAME",
+              "auto (default), baseline, sse4, avx2 or avx512: the same picture", render_only,
+              store_target},
     OptionRow{"--stamp", "", "write date, host, threads and paths into the picture", render_only,
               [](Options& o, Text) -> Problem {
                 o.stamp = true;
@@ -305,6 +325,7 @@ std::string picture_command(const Options& options) {
     add("--dialect", *options.dialect == grammar::Dialect::sdl ? "sdl" : "course");
   }
   if (options.half) text += " --half";
+  if (options.precision == backend::Precision::full) text += " --precision double";
   return text;
 }
 

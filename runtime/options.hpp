@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "backend/accel/precision.hpp"
+#include "backend/accel/target.hpp"
 #include "base/units.hpp"
 #include "grammar/parse.hpp"
 #include "ir/render_settings.hpp"
@@ -46,8 +48,10 @@ struct Options {
   std::optional<std::int64_t> frame;       // the one of `frames` that is being made
   std::optional<grammar::Dialect> dialect;
   bool half = false;
+  backend::Precision precision = backend::Precision::mixed;
 
   // What does not.
+  std::optional<backend::Target> target;  // the best of this machine
   std::string root;  // empty: where the scene lies (runtime/root.hpp)
   bool strict_links = false;
   std::optional<std::int64_t> max_items;

@@ -281,11 +281,11 @@ std::size_t MeshTree::bytes() const {
 }
 
 MeshAccel::MeshAccel(std::shared_ptr<const TriangleMesh> mesh, ThreadPool& pool,
-                     MeshPrecision precision)
+                     Precision precision)
     : mesh_(std::move(mesh)) {
   WideTree& tree = tree_.tree;
   tree.space = space_of(bounds_of_positions(*mesh_, pool));
-  if (precision == MeshPrecision::automatic) {
+  if (precision == Precision::mixed) {
     Snapping snapping(*mesh_, tree.space, pool);
     const Snap snap = snapping.run();
     if (snap != Snap::spoils) {

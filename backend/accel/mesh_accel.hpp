@@ -17,13 +17,12 @@
 #include <memory>
 #include <span>
 
+#include "backend/accel/precision.hpp"
 #include "backend/accel/wide_tree.hpp"
 #include "backend/geometry/mesh.hpp"
 #include "base/parallel.hpp"
 
 namespace scenec::backend {
-
-enum class MeshPrecision : std::uint8_t { automatic, full };
 
 // A tree over triangles: plain arrays, one of the two kinds of blocks.
 struct MeshTree {
@@ -37,8 +36,8 @@ struct MeshTree {
 class MeshAccel {
  public:
   MeshAccel(std::shared_ptr<const TriangleMesh> mesh, ThreadPool& pool,
-            MeshPrecision precision = MeshPrecision::automatic);
-  MeshAccel(TriangleMesh mesh, ThreadPool& pool, MeshPrecision precision = MeshPrecision::automatic)
+            Precision precision = Precision::mixed);
+  MeshAccel(TriangleMesh mesh, ThreadPool& pool, Precision precision = Precision::mixed)
       : MeshAccel(std::make_shared<const TriangleMesh>(std::move(mesh)), pool, precision) {}
   // From a stored tree: `mesh` must be what `mesh()` gave with it.
   MeshAccel(std::shared_ptr<const TriangleMesh> mesh, MeshTree tree)

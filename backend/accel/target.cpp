@@ -40,8 +40,8 @@ Target best_target() {
 }
 
 std::optional<Target> find_target(std::string_view name) {
-  if (name == "best") return best_target();
-  for (const Target t : {Target::baseline, Target::sse4, Target::avx2, Target::avx512})
+  if (name == "auto") return best_target();
+  for (const Target t : available_targets())
     if (name == name_of(t)) return t;
   return std::nullopt;
 }

@@ -16,7 +16,7 @@ enum class Target : std::uint8_t { baseline, sse4, avx2, avx512 };
 // What this machine can run, slowest first; never empty.
 [[nodiscard]] std::vector<Target> available_targets();
 [[nodiscard]] Target best_target();
-// By name; `best` is the best one. Empty: no such name.
+// By name; `auto` is the best one. Empty: no such name, or not on this machine.
 [[nodiscard]] std::optional<Target> find_target(std::string_view name);
 
 }  // namespace scenec::backend

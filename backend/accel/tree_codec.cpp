@@ -95,11 +95,12 @@ bool blocks_are_sound(const HugeVector<TriangleBlock<T>>& blocks, std::uint64_t 
 
 }  // namespace
 
-Hash128 tree_key(const Hash128& mesh) {
+Hash128 tree_key(const Hash128& mesh, Precision precision) {
   Hasher hasher;
   hasher.add(std::string_view("scenec-tree"));
   hasher.add(codec_version);
   hasher.add(mesh);
+  hasher.add(static_cast<std::uint64_t>(precision));
   return hasher.result();
 }
 

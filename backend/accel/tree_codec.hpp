@@ -15,7 +15,7 @@
 namespace scenec::backend {
 
 // `mesh`: the key of the mesh the tree is over, with all that was made of its file.
-[[nodiscard]] Hash128 tree_key(const Hash128& mesh);
+[[nodiscard]] Hash128 tree_key(const Hash128& mesh, Precision precision);
 
 // The bytes of an accelerator in pieces, most of which lie in it: it must stay. `built_from`: the
 // mesh it was made of, whose vertices the tree may have moved (`mesh()`).

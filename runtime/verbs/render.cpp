@@ -141,7 +141,9 @@ class RenderRun {
 
   ExitCode render(const ir::Scene& scene, const ir::RenderSettings& settings,
                   const backend::PreparedScene& prepared, backend::ImageFormat format) {
-    const backend::RenderScenePtr built = backend::build(prepared, pool_, cache());
+    const backend::RenderScenePtr built = backend::build(
+        prepared, pool_,
+        {cache(), options_.precision, options_.target.value_or(backend::best_target())});
     clock_.finish("build");
     signals_.allow_graceful_stop();
     ProgressPrinter progress(progress_, environment_);

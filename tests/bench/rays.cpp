@@ -56,7 +56,7 @@ bool parse(int count, char** words, Arguments& out) {
       } else if (word == "--list") {
         out.list = std::atoi(value.c_str());
       } else if (word == "--target") {
-        const auto target = backend::find_target(value);
+        const auto target = value == "best" ? backend::best_target() : backend::find_target(value);
         const auto all = backend::available_targets();
         if (!target || std::find(all.begin(), all.end(), *target) == all.end()) return false;
         out.target = *target;
@@ -249,10 +249,9 @@ int run_rays(int count, char** words) {
   for (int i = 0; i < std::min(arguments.repeat, 3); ++i) {
     built.reset();
     const double start = now(arguments.clock);
-    built = std::make_shared<const MeshAccel>(shared, pool,
-                                              arguments.full_precision
-                                                  ? backend::MeshPrecision::full
-                                                  : backend::MeshPrecision::automatic);
+    built = std::make_shared<const MeshAccel>(
+        shared, pool,
+        arguments.full_precision ? backend::Precision::full : backend::Precision::mixed);
     best = std::min(best, now(arguments.clock) - start);
   }
   fmt::print("build seconds {:.4f} threads {} bytes_per_triangle {:.1f} nodes {} vertices {}\n",

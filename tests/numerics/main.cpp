@@ -1,5 +1,6 @@
 // Runs the cases; with --docs=DIR also checks that DIR/numerics.md says what they found. With
-// --times it prints what the solvers of revolve cost, and runs nothing.
+// --times it prints what the solvers of revolve cost, with --precision what vertices in double
+// cost and change, and runs nothing.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "tests/numerics/document.hpp"
+#include "tests/numerics/precision.hpp"
 #include "tests/numerics/times.hpp"
 
 int main(int argc, char** argv) {
@@ -20,8 +22,13 @@ int main(int argc, char** argv) {
       std::fputs(scenec::numerics::solver_times().c_str(), stdout);
       return 0;
     }
+    if (argument == "--precision") {
+      std::fputs(scenec::numerics::precision_table().c_str(), stdout);
+      return 0;
+    }
     if (!argument.starts_with(option)) {
-      std::fprintf(stderr, "usage: scenec-numerics [--docs=DIR | --times] [--gtest_...]\n");
+      std::fprintf(stderr,
+                   "usage: scenec-numerics [--docs=DIR | --times | --precision] [--gtest_...]\n");
       return 2;
     }
     docs = argument.substr(option.size());

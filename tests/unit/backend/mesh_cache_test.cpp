@@ -58,7 +58,7 @@ Rendered render_sheet(const std::string& obj, ContentCache* cache, ir::NormalMod
   for (const Diagnostic& d : sink.sorted()) run.warnings += d.message + "\n";
   EXPECT_TRUE(prepared) << run.warnings;
   if (!prepared) return run;
-  const RenderScenePtr built = build(*prepared, pool, cache);
+  const RenderScenePtr built = build(*prepared, pool, {.cache = cache});
   ir::RenderSettings settings = scene.render;
   settings.size = {24, 16};
   settings.samples = 1;

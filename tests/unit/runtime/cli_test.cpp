@@ -74,6 +74,18 @@ TEST(Cli, BadValuesSayWhatIsNeeded) {
   EXPECT_EQ(usage_message({"a.sdl", "--half=3"}), "`--half` takes no value");
 }
 
+TEST(Cli, PrecisionAndTargetHaveNames) {
+  EXPECT_EQ(options_from({"a.sdl"}).precision, backend::Precision::mixed);
+  EXPECT_EQ(options_from({"a.sdl", "--precision", "double"}).precision, backend::Precision::full);
+  EXPECT_THAT(picture_command(options_from({"a.sdl", "--precision", "double"})),
+              HasSubstr("--precision double"));
+  EXPECT_THAT(usage_message({"a.sdl", "--precision", "duoble"}), HasSubstr("mean `double`?"));
+  EXPECT_EQ(options_from({"a.sdl", "--target", "auto"}).target, backend::best_target());
+  EXPECT_EQ(options_from({"a.sdl", "--target=baseline"}).target, backend::Target::baseline);
+  EXPECT_THAT(usage_message({"a.sdl", "--target", "avx3"}),
+              HasSubstr("an instruction set of this machine: one of `auto`, `baseline`"));
+}
+
 TEST(Cli, MistypedWordsGetTheNearestName) {
   EXPECT_EQ(usage_message({"chekc", "a.sdl"}), "unknown verb `chekc`; did you mean `check`?");
   EXPECT_EQ(usage_message({"a.sdl", "--sise", "4x4"}),

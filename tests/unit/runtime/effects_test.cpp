@@ -3,54 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "backend/backend.hpp"
-#include "base/file_system.hpp"
-#include "base/source_map.hpp"
-#include "frontend/compile.hpp"
 #include "ir/effects.hpp"
+#include "tests/support/built_scene.hpp"
 #include "tests/support/paths.hpp"
 
 namespace scenec {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Built {
-  std::unique_ptr<ir::Scene> scene;
-  backend::PreparedPtr prepared;
-  backend::RenderScenePtr render_scene;
-};
-
-std::optional<Built> build_file(const fs::path& path, ThreadPool& pool) {
-  RealFileSystem disk;
-  SourceMap sources;
-  DiagnosticSink sink;
-  const auto file = frontend::load(path.string(), {}, disk, sources, sink);
-  if (!file) return std::nullopt;
-  auto scene = frontend::compile(*file, {}, disk, sources, sink);
-  if (!scene || !scene->render.camera.valid()) return std::nullopt;
-  Built built;
-  built.scene = std::make_unique<ir::Scene>(std::move(*scene));
-  built.prepared = backend::prepare(*built.scene, disk, pool, sink);
-  if (!built.prepared) return std::nullopt;
-  built.render_scene = backend::build(*built.prepared, pool);
-  return built;
-}
-
-ir::RenderSettings small(const ir::Scene& scene) {
-  ir::RenderSettings settings = scene.render;
-  settings.size = {24, 18};
-  settings.region.reset();
-  settings.stop = {};
-  settings.samples = 4;
-  return settings;
-}
+using test::build_file;
+using test::small_settings;
 
 // Where two pictures differ first.
 std::string difference(const backend::Picture& a, const backend::Picture& b) {
@@ -78,7 +44,7 @@ TEST(Effects, WhatIsProvedAbsentCannotBeSeen) {
     const auto built = build_file(path, pool);
     if (!built) continue;  // a library
     for (const ir::Method method : {ir::Method::path, ir::Method::whitted, ir::Method::phong}) {
-      ir::RenderSettings settings = small(*built->scene);
+      ir::RenderSettings settings = small_settings(*built->scene);
       settings.method = method;
       settings.effects = {};
       const ir::EffectReport report = backend::find_effects(*built->render_scene, settings);
@@ -99,7 +65,7 @@ TEST(Effects, SwitchesLeaveOutWhatTheyName) {
   const auto built =
       build_file(test::source_directory() / "tests/golden/effects/everything.sdl", pool);
   ASSERT_TRUE(built);
-  const ir::RenderSettings settings = small(*built->scene);
+  const ir::RenderSettings settings = small_settings(*built->scene);
   const ir::EffectSet all = backend::find_effects(*built->render_scene, settings).simulated();
   ASSERT_EQ(all, ir::EffectSet::all());
   const backend::Picture with = backend::render(*built->render_scene, settings, all, pool, {}, {});

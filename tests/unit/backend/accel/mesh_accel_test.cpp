@@ -79,10 +79,10 @@ Ray random_ray(Draw& draw) {
 }
 
 TEST(MeshAccel, EveryTargetHasTheBitsOfTheScalarFormula) {
-  for (const MeshPrecision precision : {MeshPrecision::automatic, MeshPrecision::full}) {
+  for (const Precision precision : {Precision::mixed, Precision::full}) {
     Draw draw(1);
     const auto mesh = std::make_shared<const MeshAccel>(soup(draw, 500, 1), pool(), precision);
-    EXPECT_EQ(mesh->tree().full(), precision == MeshPrecision::full);
+    EXPECT_EQ(mesh->tree().full(), precision == Precision::full);
     for (const Target target : available_targets()) {
       const SceneAccel accel = world_of(mesh, target);
       Draw rays(2);
