@@ -55,10 +55,21 @@ struct BuildOptions {
 [[nodiscard]] ir::EffectReport find_effects(const RenderScene& scene,
                                             const ir::RenderSettings& settings);
 
+// How far the picture is from the one that infinitely many samples would give, with a band that
+// holds the true figure 95 times in 100. `error` is the language's: sqrt(relMSE).
+struct ErrorEstimate {
+  bool known = false;  // false: too few samples to say anything; the figures are 0
+  double error = 0;
+  double low = 0;
+  double high = 0;
+};
+
 // `fraction` in [0, 1] of the work asked for; called from worker threads, at most every few ms.
 struct Progress {
   double fraction = 0;
   std::int64_t samples_done = 0;  // a pixel, in finished rounds
+  ErrorEstimate error{};          // of a finished round, not always the last one
+  std::int64_t error_samples = 0;
 };
 using ProgressFunction = std::function<void(const Progress&)>;
 
@@ -74,6 +85,7 @@ struct Picture {
   bool complete = true;               // false after a stop request
   std::uint64_t dropped_samples = 0;  // not finite: counted, never averaged
   std::uint64_t rays = 0;
+  ErrorEstimate error;
 };
 
 // Renders with `settings` (the scene's, or the scene's with the command line's changes). The bytes

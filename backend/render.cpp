@@ -1,20 +1,17 @@
-// Tiles over threads, rounds of samples, stopping.
+// A render from the first sample to the one at which its stop rule holds.
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <mutex>
 
 #include "backend/backend.hpp"
-#include "backend/film/film.hpp"
-#include "backend/integrators/kernel.hpp"
+#include "backend/render_session.hpp"
 
 namespace scenec::backend {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t tile_side = 16;
 constexpr std::int64_t most_samples = 1'048'576;
 // `stop.error` needs this many samples, and two rounds that agree, before it is believed.
 constexpr std::int64_t samples_before_error = 64;
@@ -62,31 +59,23 @@ class Renderer {
            const ir::EffectSet& effects, ThreadPool& pool, std::stop_token stop,
            const ProgressFunction& progress)
       : settings_(settings),
-        pool_(pool),
         stop_(std::move(stop)),
         start_(Clock::now()),
         progress_(progress, start_),
-        kernel_(scene, settings, effects),
-        film_(settings, settings.stop.error ? Film::Squares::yes : Film::Squares::no),
-        cap_(sample_cap(settings)),
-        workers_(pool.size()) {
-    tiles_x_ = (film_.region_width() + tile_side - 1) / tile_side;
-    tiles_y_ = (film_.region_height() + tile_side - 1) / tile_side;
-  }
+        session_(scene, settings, effects, pool),
+        cap_(sample_cap(settings)) {}
 
   Picture run() {
     bool complete = true;
-    while (film_.samples() < cap_ && !good_enough()) {
-      const std::int64_t count = next_round(film_.samples(), cap_);
-      if (!render_round(count)) {
-        complete = false;
-        break;
-      }
-      film_.finish_round(count, pool_);
+    while (complete && session_.samples() < cap_ && !good_enough()) {
+      const double first = static_cast<double>(session_.samples());
+      const std::int64_t count = next_round(session_.samples(), cap_);
+      complete = session_.advance(count, stop_, [&](double part) {
+        progress_.update(fraction(first + part * static_cast<double>(count)), session_.samples());
+      });
     }
-    Picture picture = film_.picture();
+    Picture picture = session_.picture();
     picture.complete = complete;
-    for (const KernelWorker& worker : workers_) picture.rays += worker.rays.rays;
     return picture;
   }
 
@@ -96,33 +85,13 @@ class Renderer {
   }
 
   bool good_enough() {
-    if (film_.samples() == 0) return false;
+    if (session_.samples() == 0) return false;
     if (settings_.stop.time && seconds() >= settings_.stop.time->value) return true;
-    if (!settings_.stop.error || film_.samples() < samples_before_error) return false;
-    const bool now = film_.estimated_error() <= *settings_.stop.error;
+    if (!settings_.stop.error || session_.samples() < samples_before_error) return false;
+    const ErrorEstimate estimate = session_.error();
+    const bool now = estimate.known && estimate.error <= *settings_.stop.error;
     const bool before = std::exchange(error_reached_, now);
     return now && before;
-  }
-
-  bool render_round(std::int64_t count) {
-    const std::size_t tiles = tiles_x_ * tiles_y_;
-    std::atomic<std::size_t> done{0};
-    std::atomic<bool> cut{false};
-    const std::int64_t first = film_.samples();
-    const bool all = pool_.for_each(
-        tiles,
-        [&](std::size_t tile, unsigned worker) {
-          if (!render_tile(tile, first, count, workers_[worker])) {
-            cut.store(true, std::memory_order_relaxed);
-            return;
-          }
-          const std::size_t finished = done.fetch_add(1, std::memory_order_relaxed) + 1;
-          const double part = static_cast<double>(finished) / static_cast<double>(tiles);
-          progress_.update(fraction(static_cast<double>(first) + part * static_cast<double>(count)),
-                           first);
-        },
-        stop_);
-    return all && !cut.load();
   }
 
   [[nodiscard]] double fraction(double samples) const {
@@ -131,26 +100,12 @@ class Renderer {
     return f;
   }
 
-  // False when a stop request came in between.
-  bool render_tile(std::size_t tile, std::int64_t first, std::int64_t count, KernelWorker& worker) {
-    const std::size_t x0 = tile % tiles_x_ * tile_side;
-    const std::size_t y0 = tile / tiles_x_ * tile_side;
-    const Tile pixels{x0, y0, std::min(x0 + tile_side, film_.region_width()),
-                      std::min(y0 + tile_side, film_.region_height())};
-    return kernel_.render(film_, pixels, {first, first + count}, worker, stop_);
-  }
-
   const ir::RenderSettings& settings_;
-  ThreadPool& pool_;
   std::stop_token stop_;
   Clock::time_point start_;
   ProgressReporter progress_;
-  TileKernel kernel_;
-  Film film_;
+  RenderSession session_;
   std::int64_t cap_;
-  std::vector<KernelWorker> workers_;
-  std::size_t tiles_x_ = 0;
-  std::size_t tiles_y_ = 0;
   bool error_reached_ = false;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/packed_bytes.hpp"
+
 namespace scenec::backend {
 
 ir::Region region_of(const ir::RenderSettings& settings) {
@@ -158,6 +160,42 @@ double Film::estimated_error() const {
     }
   }
   return std::sqrt(sum / (3 * static_cast<double>(std::max<std::size_t>(1, total_.size()))));
+}
+
+ErrorEstimate Film::error() const {
+  if (samples_ < 2) return {};
+  const double error = estimated_error();
+  return {true, error, error, error};
+}
+
+std::string Film::save() const {
+  std::string out;
+  append_packed(out, samples_);
+  append_packed(out, dropped_.load());
+  append_packed(out, saturated_.load());
+  out += packed_bytes_of(total_);
+  out += packed_bytes_of(total_squares_);
+  out += packed_bytes_of(total_extra_);
+  return out;
+}
+
+bool Film::restore(std::string_view bytes) {
+  PackedReader reader(bytes);
+  const auto samples = reader.value<std::int64_t>();
+  const auto dropped = reader.value<std::uint64_t>();
+  const auto saturated = reader.value<std::uint64_t>();
+  auto total = reader.list<std::vector<Sums>>(total_.size());
+  auto squares = reader.list<std::vector<Squares3>>(total_squares_.size());
+  auto extra = reader.list<std::vector<Extra>>(total_extra_.size());
+  if (!reader.at_end() || samples < 0) return false;
+  drop_round();
+  samples_ = samples;
+  dropped_ = dropped;
+  saturated_ = saturated;
+  total_ = std::move(total);
+  total_squares_ = std::move(squares);
+  total_extra_ = std::move(extra);
+  return true;
 }
 
 Picture Film::picture() const {

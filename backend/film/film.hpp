@@ -53,9 +53,13 @@ class Film {
   void drop_round();
   [[nodiscard]] std::int64_t samples() const { return samples_; }
 
-  // sqrt(relMSE) estimated from the samples' variance. Precondition: squares are kept.
-  [[nodiscard]] double estimated_error() const;
+  // Precondition: squares are kept.
+  [[nodiscard]] ErrorEstimate error() const;
   [[nodiscard]] Picture picture() const;
+
+  // The finished rounds as bytes; restore() refuses what cannot be sums of this film.
+  [[nodiscard]] std::string save() const;
+  [[nodiscard]] bool restore(std::string_view bytes);
 
  private:
   struct Sums {
@@ -78,6 +82,7 @@ class Film {
   [[nodiscard]] std::size_t index(std::size_t x, std::size_t y) const { return y * width_ + x; }
   void add_extra(std::size_t pixel, const FilmSample& sample);
   void append_layers(Picture& picture) const;
+  [[nodiscard]] double estimated_error() const;
 
   ir::RenderSettings settings_;
   ir::Region region_;
