@@ -27,7 +27,13 @@ class InlineList {
     all_.push_back(std::move(value));
     ++size_;
   }
-  void resize(std::size_t size) {
+  // Makes the list longer; what is new is T{}. A list never becomes shorter, so the places behind
+  // its end are T{} already.
+  void grow(std::size_t size) {
+    if (size <= N) {
+      if (size_ < size) size_ = size;
+      return;
+    }
     while (size_ < size) push_back(T{});
   }
   [[nodiscard]] std::size_t size() const { return size_; }

@@ -2,18 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/text.hpp"
 
 namespace scenec::frontend {
 
 using grammar::NodeRef;
 
+namespace {
+
+bool all_by_position(const ast::Arguments& given) {
+  return std::none_of(given.begin(), given.end(),
+                      [](const ast::Argument& argument) { return bool(argument.name); });
+}
+
+}  // namespace
+
 bool place_arguments(Session& session, std::string_view callee, const ast::Arguments& given,
                      std::size_t parameter_count,
                      const std::function<std::string_view(std::size_t)>& name_of,
                      ArgumentPlaces& places) {
+  if (all_by_position(given) && given.size() <= parameter_count) {
+    for (std::size_t i = 0; i < given.size(); ++i) places.push_back(i);
+    return true;
+  }
   InlineList<NodeRef, 8> taken;
-  taken.resize(parameter_count);
+  taken.grow(parameter_count);
   bool named = false;
   for (std::size_t i = 0; i < given.size(); ++i) {
     const ast::Argument& argument = given[i];

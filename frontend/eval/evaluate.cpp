@@ -156,6 +156,17 @@ Value Evaluator::evaluate(NodeRef node, Scope& scope) {
 }
 
 Value Evaluator::number_literal(NodeRef node) {
+  const char* place = node.text().data();
+  const Value* known = numerals_.find(place);
+  Value value = known != nullptr ? *known : read_number(node);
+  if (known == nullptr && !value.poisoned()) numerals_.put(place, value);
+  if (!session_.checking_only()) return value;
+  Value type = type_of(value);
+  type.literal_zero = value.literal_zero;
+  return type;
+}
+
+Value Evaluator::read_number(NodeRef node) {
   const NodeRef token = node.find_child(SyntaxKind::number);
   const std::string_view text = token ? token.text() : node.text();
   const Numeral numeral = split_numeral(text);
@@ -197,10 +208,7 @@ Value Evaluator::number_literal(NodeRef node) {
       return {};
     }
   }
-  if (!session_.checking_only()) return value;
-  Value type = type_of(value);
-  type.literal_zero = value.literal_zero;
-  return type;
+  return value;
 }
 
 Value Evaluator::unary(NodeRef node, Scope& scope) {

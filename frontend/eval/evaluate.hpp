@@ -11,6 +11,7 @@
 #include "frontend/eval/builtins.hpp"
 #include "frontend/eval/coerce.hpp"
 #include "frontend/eval/scope.hpp"
+#include "frontend/eval/site_memo.hpp"
 #include "frontend/eval/value.hpp"
 #include "frontend/session.hpp"
 #include "grammar/syntax_tree.hpp"
@@ -68,6 +69,7 @@ class Evaluator {
 
  private:
   Value number_literal(grammar::NodeRef node);
+  Value read_number(grammar::NodeRef node);
   Value name_value(grammar::NodeRef node, Scope& scope);
   Value binding_value(Binding& binding, grammar::NodeRef node);
   Value unary(grammar::NodeRef node, Scope& scope);
@@ -98,6 +100,8 @@ class Evaluator {
   Session& session_;
   std::vector<grammar::NodeRef> active_;  // functions and macros being run
   std::size_t unknown_names_ = 0;
+  SiteMemo<Value, 64> numerals_;
+  SiteMemo<const Builtin*, 64> builtins_;
 };
 
 [[nodiscard]] std::string decoded_string(std::string_view quoted);

@@ -20,8 +20,8 @@ bool Evaluator::bind_builtin(Call& call, const Builtin& function, const ast::Arg
   const auto parameters = function.parameters;
   ArgumentPlaces places;
   if (function.variadic) {
-    call.arguments.resize(given.size());
-    call.nodes.resize(given.size());
+    call.arguments.grow(given.size());
+    call.nodes.grow(given.size());
     for (std::size_t i = 0; i < given.size(); ++i) {
       places.push_back(i);
       if (!given[i].name) continue;
@@ -35,8 +35,8 @@ bool Evaluator::bind_builtin(Call& call, const Builtin& function, const ast::Arg
     }
   } else {
     const auto name_of = [&](std::size_t i) { return parameters[i].name; };
-    call.arguments.resize(parameters.size());
-    call.nodes.resize(parameters.size());
+    call.arguments.grow(parameters.size());
+    call.nodes.grow(parameters.size());
     if (!place_arguments(session_, function.name, given, parameters.size(), name_of, places))
       return false;
   }
@@ -121,9 +121,13 @@ Value Evaluator::call(NodeRef node, NodeRef callee, Scope& scope) {
     found.binding->used = true;
     return call_binding(node, callee, found, scope);
   }
+  const char* place = callee.text().data();
+  if (const auto* known = builtins_.find(place)) return call_builtin(node, **known, scope);
   if (callee.text() == "select") return select(node, scope);
-  if (const Builtin* function = find_builtin(callee.text()))
+  if (const Builtin* function = find_builtin(callee.text())) {
+    builtins_.put(place, function);
     return call_builtin(node, *function, scope);
+  }
   std::vector<std::string_view> names = builtin_names();
   for (Scope* at = &scope; at != nullptr; at = at->parent()) {
     for (const Binding& binding : at->bindings()) {
