@@ -18,6 +18,7 @@ struct BuiltScene {
   std::unique_ptr<ir::Scene> scene;
   backend::PreparedPtr prepared;
   backend::RenderScenePtr render_scene;
+  std::size_t findings = 0;  // what was said, lints included
 };
 
 // Nothing: it does not compile, or is a library without a camera.
@@ -35,6 +36,7 @@ struct BuiltScene {
   built.scene = std::make_unique<ir::Scene>(std::move(*scene));
   built.prepared = backend::prepare(*built.scene, disk, pool, sink);
   if (!built.prepared) return std::nullopt;
+  built.findings = sink.sorted().size();
   built.render_scene = backend::build(*built.prepared, pool, options);
   return built;
 }
