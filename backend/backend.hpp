@@ -15,6 +15,7 @@
 #include "base/content_cache.hpp"
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
+#include "base/limits.hpp"
 #include "base/parallel.hpp"
 #include "ir/effects.hpp"
 #include "ir/scene.hpp"
@@ -38,9 +39,11 @@ using RenderScenePtr = std::unique_ptr<RenderScene, Destroy>;
 
 // Reads and checks every asset the scene names and examines the geometry (degenerate faces, lights
 // inside geometry); reports with origins from the IR. Null when there was an error. A mesh file
-// that `cache` has by the hash the front end took of it is not decoded again; null: no cache.
+// that `cache` has by the hash the front end took of it is not decoded again; null: no cache. An
+// asset beyond `limits` is an error.
 [[nodiscard]] PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
-                                  DiagnosticSink& sink, ContentCache* cache = nullptr);
+                                  DiagnosticSink& sink, ContentCache* cache = nullptr,
+                                  const Limits& limits = {});
 
 struct BuildOptions {
   ContentCache* cache = nullptr;  // a tree it has for a mesh is not built again

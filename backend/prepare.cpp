@@ -19,24 +19,37 @@ void destroy(PreparedScene* scene) {
 
 namespace {
 
+// Where assets come from, and what is too much of them.
+struct AssetSource {
+  FileSystem& files;
+  ContentCache* cache;  // null: none
+  const Limits& limits;
+};
+
 // Diagnostics of one task; reported afterwards in the order of the tasks.
 struct TaskReport {
   std::vector<Diagnostic> diagnostics;
 };
 
 std::optional<FileContent> read_asset(const ir::Asset& asset, FileSystem& files,
-                                      std::uint64_t limit, TaskReport& report) {
+                                      std::uint64_t limit, std::string_view limit_option,
+                                      TaskReport& report) {
   auto content = files.read(asset.path, limit);
   if (content) return std::move(content).value();
-  report.diagnostics.emplace_back(
-      DiagnosticKind::file_unreadable, asset.span,
-      asset.path + " cannot be read: " + files.reason_of(content.error()));
+  Diagnostic diagnostic(DiagnosticKind::file_unreadable, asset.span,
+                        asset.path + " cannot be read: " + files.reason_of(content.error()));
+  const bool too_large = content.error() == FileError::too_large;
+  report.diagnostics.push_back(too_large ? std::move(diagnostic).hint(sets_the_limit(limit_option))
+                                         : std::move(diagnostic));
   return std::nullopt;
 }
 
-std::string located(const std::string& path, const AssetProblem& problem) {
-  return path + (problem.line != 0 ? ":" + std::to_string(problem.line) : "") + ": " +
-         problem.message;
+Diagnostic broken(DiagnosticKind kind, const ir::Asset& asset, const AssetProblem& problem) {
+  Diagnostic diagnostic(kind, asset.span,
+                        asset.path + (problem.line != 0 ? ":" + std::to_string(problem.line) : "") +
+                            ": " + problem.message);
+  if (problem.limit_option.empty()) return diagnostic;
+  return std::move(diagnostic).hint(sets_the_limit(problem.limit_option));
 }
 
 // Smaller files are decoded as fast as they are found in the cache.
@@ -55,12 +68,12 @@ std::optional<MeshData> find_cached(ContentCache& cache, const Hash128& key) {
 }
 
 // Whatever the format: the key of what a reader makes of the file, zero without a hash of it.
-Hash128 file_key_of(const ir::Asset& asset) {
+Hash128 file_key_of(const ir::Asset& asset, const Limits& limits) {
   if (asset.hash == Hash128{}) return {};
-  return mesh_key(asset.hash, extension_of(asset.path), MeshLimits{});
+  return mesh_key(asset.hash, extension_of(asset.path), MeshLimits(limits));
 }
 
-std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, ContentCache* cache,
+std::optional<MeshData> read_mesh(const ir::Asset& asset, const AssetSource& source,
                                   TaskReport& report) {
   const std::string extension = extension_of(asset.path);
   if (extension != ".obj" && extension != ".ply") {
@@ -69,13 +82,14 @@ std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, Con
                    asset.path + " is neither an `.obj` nor a `.ply` file"));
     return std::nullopt;
   }
-  const MeshLimits limits;
-  const Hash128 key = file_key_of(asset);
-  if (key == Hash128{}) cache = nullptr;
+  const MeshLimits limits(source.limits);
+  const Hash128 key = file_key_of(asset, source.limits);
+  ContentCache* cache = key == Hash128{} ? nullptr : source.cache;
   if (cache != nullptr) {
     if (auto cached = find_cached(*cache, key)) return cached;
   }
-  const auto content = read_asset(asset, files, limits.file_bytes, report);
+  const auto content =
+      read_asset(asset, source.files, limits.file_bytes, limit_option::mesh_bytes, report);
   if (!content) return std::nullopt;
   auto data =
       extension == ".obj" ? read_obj(content->bytes, limits) : read_ply(content->bytes, limits);
@@ -88,20 +102,19 @@ std::optional<MeshData> read_mesh(const ir::Asset& asset, FileSystem& files, Con
     }
     return std::move(data).value();
   }
-  report.diagnostics.emplace_back(DiagnosticKind::mesh_broken, asset.span,
-                                  located(asset.path, data.error()));
+  report.diagnostics.push_back(broken(DiagnosticKind::mesh_broken, asset, data.error()));
   return std::nullopt;
 }
 
-std::shared_ptr<const DecodedImage> read_picture(const ir::Asset& asset, FileSystem& files,
+std::shared_ptr<const DecodedImage> read_picture(const ir::Asset& asset, const AssetSource& source,
                                                  TaskReport& report) {
-  const ImageLimits limits;
-  const auto content = read_asset(asset, files, limits.file_bytes, report);
+  const ImageLimits limits(source.limits);
+  const auto content =
+      read_asset(asset, source.files, limits.file_bytes, limit_option::image_bytes, report);
   if (!content) return nullptr;
   auto image = read_image(content->bytes, extension_of(asset.path), limits);
   if (image) return std::make_shared<DecodedImage>(std::move(image).value());
-  report.diagnostics.emplace_back(DiagnosticKind::image_broken, asset.span,
-                                  located(asset.path, image.error()));
+  report.diagnostics.push_back(broken(DiagnosticKind::image_broken, asset, image.error()));
   return nullptr;
 }
 
@@ -232,8 +245,7 @@ class FileMeshes {
 };
 
 void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::vector<Span>& spans,
-                   FileSystem& files, ContentCache* cache, PreparedScene& prepared,
-                   TaskReport& task) {
+                   const AssetSource& source, PreparedScene& prepared, TaskReport& task) {
   if (!group.asset.valid()) {
     const std::size_t index = group.meshes.front();
     MeshReport report;
@@ -243,15 +255,15 @@ void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::ve
     return;
   }
   const ir::Asset& asset = scene.assets[group.asset];
-  std::optional<MeshData> data = read_mesh(asset, files, cache, task);
+  std::optional<MeshData> data = read_mesh(asset, source, task);
   if (!data) return;
   FileMeshes meshes(std::move(*data), asset, group.meshes.size() == 1, task);
-  const Hash128 file_key = file_key_of(asset);
+  const Hash128 file_key = file_key_of(asset, source.limits);
   for (const std::size_t index : group.meshes) {
-    const ir::Mesh& source = mesh_at(scene, index);
-    prepared.meshes[index] = meshes.mesh_of(source);
+    const ir::Mesh& mesh = mesh_at(scene, index);
+    prepared.meshes[index] = meshes.mesh_of(mesh);
     if (file_key != Hash128{} && prepared.meshes[index]->faces.size() >= smallest_cached_tree)
-      prepared.mesh_keys[index] = key_of(source, file_key);
+      prepared.mesh_keys[index] = key_of(mesh, file_key);
   }
 }
 
@@ -269,7 +281,8 @@ std::vector<ir::AssetId> images_of(const ir::Scene& scene) {
 }  // namespace
 
 PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
-                    DiagnosticSink& sink, ContentCache* cache) {
+                    DiagnosticSink& sink, ContentCache* cache, const Limits& limits) {
+  const AssetSource source{files, cache, limits};
   PreparedPtr prepared(new PreparedScene{&scene, {}, {}, {}});
   prepared->meshes.resize(scene.table<ir::Mesh>().size());
   prepared->mesh_keys.resize(prepared->meshes.size());
@@ -280,10 +293,10 @@ PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
   std::vector<TaskReport> reports(groups.size() + images.size());
   pool.for_each(reports.size(), [&](std::size_t i, unsigned) {
     if (i < groups.size()) {
-      prepare_group(groups[i], scene, spans, files, cache, *prepared, reports[i]);
+      prepare_group(groups[i], scene, spans, source, *prepared, reports[i]);
     } else {
       const ir::AssetId asset = images[i - groups.size()];
-      prepared->images[asset.value()] = read_picture(scene.assets[asset], files, reports[i]);
+      prepared->images[asset.value()] = read_picture(scene.assets[asset], source, reports[i]);
     }
   });
   const std::size_t errors_before = sink.error_count();

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace scenec {
 
 struct AssetProblem {
   std::uint64_t line = 0;  // 1-based line of the asset; 0: the file as a whole, or a binary file
   std::string message;
+  std::string_view limit_option = {};  // base/limits.hpp: the one that would let it pass
 };
 
 }  // namespace scenec

@@ -14,7 +14,7 @@ namespace scenec {
 // The shortest text that reads back to the same double, as a language numeral: always with a `.`
 // or an exponent ("1.0", "0.1", "1e-07"), never inf or nan (precondition: finite).
 [[nodiscard]] std::string number_text(double value);
-// For people: at most six significant digits, no trailing zeros.
+// For people: six significant digits, no trailing zeros; whole numbers below 1e12 in full.
 [[nodiscard]] std::string short_number_text(double value);
 // Correctly rounded, locale-free; subnormals accepted, overflow and rest text give nullopt.
 [[nodiscard]] std::optional<double> parse_double(std::string_view text);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "base/limits.hpp"
 #include "base/text.hpp"
 
 namespace scenec {
@@ -44,7 +45,7 @@ LineScanner::LineScanner(std::string_view bytes, std::size_t longest_line,
 }
 
 AssetProblem LineScanner::too_long_problem() const {
-  return {line_, fmt::format("line longer than {} bytes", longest_line_)};
+  return {line_, fmt::format("line longer than {} bytes", longest_line_), limit_option::line_bytes};
 }
 
 bool LineScanner::next_physical(std::string_view& line) {

@@ -17,9 +17,6 @@ namespace scenec {
 }
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-// The longest line of an asset that is read.
-inline constexpr std::size_t longest_asset_line = std::size_t{16} << 20;
-
 // Line ends are LF or CR LF, the last one may be missing; a UTF-8 byte order mark is read over.
 class LineScanner {
  public:

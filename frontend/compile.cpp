@@ -27,7 +27,8 @@ grammar::SyntaxTree translated(const LoadedFile& loaded, const std::string& path
   const course::TranslateOptions how{
       .scene_path = path,
       .output_directory = output_directory.value_or(directory_of(path)),
-      .method = options.method};
+      .method = options.method,
+      .limits = options.limits};
   course::Translation translation = course::translate(loaded.tree, how, files, sink);
   const FileId file =
       sources.add_derived(loaded.file, std::move(translation.text), std::move(translation.ranges));
@@ -109,7 +110,7 @@ std::optional<ir::Scene> compile_trees(TreeSource& trees, const SceneFile& scene
   // nothing.
   const bool readable = !sink.has_errors();
   lowering.lower_scene(trees, scene.file, scene.identity);
-  const bool complete = !session.out_of_steps() && session.item_count() <= options.max_items;
+  const bool complete = !session.out_of_steps() && session.item_count() <= options.limits.items;
   const auto end = static_cast<std::uint32_t>(sources.text(scene.file).size());
   if (readable && complete) check_scene(session, {scene.file, end, end}, lowering);
   if (sink.has_errors()) return std::nullopt;

@@ -11,6 +11,7 @@
 
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
+#include "base/limits.hpp"
 #include "base/parallel.hpp"
 #include "base/source_map.hpp"
 #include "grammar/parse.hpp"
@@ -38,13 +39,6 @@ struct Frame {
 
 class FrontendCache;
 
-// How much text a scene may bring along; each is set by the option named behind it.
-struct SourceLimits {
-  std::uint64_t total_bytes = std::uint64_t{1} << 30;  // --max-source
-  std::uint64_t include_depth = 64;                    // --max-include-depth
-  std::uint64_t include_files = 4096;                  // --max-includes
-};
-
 struct CompileOptions {
   std::optional<grammar::Dialect> dialect;  // none: by grammar::dialect_of
   std::vector<ParamSetting> params;         // of two with one name the later one counts
@@ -52,9 +46,7 @@ struct CompileOptions {
   std::optional<ir::Method> method;         // course only: replaces the method found by vocabulary
   bool library = false;                     // accept a file of declarations alone
   bool camera_chosen = false;               // the caller picks one of several cameras
-  std::uint64_t max_items = 2'000'000;
-  std::uint64_t max_steps = 500'000'000;  // of evaluation; one is about as dear as an addition
-  SourceLimits source;
+  Limits limits;
   FrontendCache* cache = nullptr;  // what earlier compilations have read
   ThreadPool* pool = nullptr;      // parses large files; none: the calling thread does
   // A scene of this many bytes is read in parts of the size below, each forgotten when it has been

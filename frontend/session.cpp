@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/hash.hpp"
+#include "base/limits.hpp"
 #include "base/text.hpp"
 
 namespace scenec::frontend {
@@ -74,24 +75,26 @@ std::string count_text(std::uint64_t count) {
 
 bool Session::exhausted(Span where) {
   if (!std::exchange(exhaustion_reported_, true)) {
-    error(DiagnosticKind::too_many_steps, where,
-          fmt::format("evaluating the scene takes more than {} steps", options.max_steps));
+    error(Diagnostic(
+              DiagnosticKind::too_many_steps, where,
+              fmt::format("evaluating the scene takes more than {} steps", options.limits.steps))
+              .hint(sets_the_limit(limit_option::steps)));
   }
   return false;
 }
 
 bool Session::affords(std::uint64_t items, std::uint64_t steps, Span where) {
-  const std::uint64_t items_left = options.max_items - std::min(items_, options.max_items);
+  const std::uint64_t items_left = options.limits.items - std::min(items_, options.limits.items);
   if (items > items_left) {
-    items_ = options.max_items + 2;  // as if they had been placed
+    items_ = options.limits.items + 2;  // as if they had been placed
     error(Diagnostic(DiagnosticKind::too_many_items, where,
                      fmt::format("this places at least {} items; the scene may place {}",
-                                 count_text(items), options.max_items))
-              .hint("`--max-items` sets the limit"));
+                                 count_text(items), options.limits.items))
+              .hint(sets_the_limit(limit_option::items)));
     return false;
   }
-  if (steps <= options.max_steps - std::min(steps_, options.max_steps)) return true;
-  steps_ = options.max_steps + 1;
+  if (steps <= options.limits.steps - std::min(steps_, options.limits.steps)) return true;
+  steps_ = options.limits.steps + 1;
   return exhausted(where);
 }
 
@@ -105,11 +108,11 @@ bool Session::deep_enough(std::size_t calls, Span where) {
 }
 
 bool Session::count_item(Span where) {
-  if (++items_ <= options.max_items) return true;
-  if (items_ == options.max_items + 1) {
+  if (++items_ <= options.limits.items) return true;
+  if (items_ == options.limits.items + 1) {
     error(Diagnostic(DiagnosticKind::too_many_items, where,
-                     fmt::format("the scene places more than {} items", options.max_items))
-              .hint("`--max-items` sets the limit"));
+                     fmt::format("the scene places more than {} items", options.limits.items))
+              .hint(sets_the_limit(limit_option::items)));
   }
   return false;
 }

@@ -119,9 +119,9 @@ class Session {
   // False when the budget is used up (reported once); loops then end.
   bool spend(std::uint64_t steps, Span where) {
     steps_ += steps;
-    return steps_ <= options.max_steps || exhausted(where);
+    return steps_ <= options.limits.steps || exhausted(where);
   }
-  [[nodiscard]] bool out_of_steps() const { return steps_ > options.max_steps; }
+  [[nodiscard]] bool out_of_steps() const { return steps_ > options.limits.steps; }
   // What is about to be run takes at least that many items and steps; false (reported once at
   // `where`) when the budgets cannot pay for it. Nothing is placed from then on.
   bool affords(std::uint64_t items, std::uint64_t steps, Span where);

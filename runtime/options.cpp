@@ -24,9 +24,6 @@ constexpr VerbSet writing{Verb::render, Verb::dump, Verb::convert};
 
 constexpr std::int64_t largest_sample_count = 1048576;
 constexpr std::int64_t largest_thread_count = 1024;
-constexpr std::int64_t largest_item_limit = 1'000'000'000;
-constexpr std::int64_t largest_source_limit = std::int64_t{1} << 40;
-constexpr std::int64_t largest_include_depth = 1000;  // each level takes some of the stack
 
 // `Target` is the optional member that takes the value.
 template <class Target, class T>
@@ -97,6 +94,14 @@ Problem store_target(Options& options, std::string_view text) {
   for (const backend::Target target : backend::available_targets())
     names.push_back(backend::name_of(target));
   return fmt::format("an instruction set of this machine: one of {}", quoted_list(names));
+}
+
+std::optional<std::string> store_limit(std::uint64_t& place, std::string_view text,
+                                       std::int64_t lowest, std::int64_t highest) {
+  std::optional<std::int64_t> value;
+  auto problem = store_parsed(value, parse_whole_number(text, lowest, highest));
+  if (value) place = static_cast<std::uint64_t>(*value);
+  return problem;
 }
 
 using Text = std::string_view;
@@ -179,23 +184,11 @@ constexpr std::array option_table{
                 return std::nullopt;
               },
               ValueNeed::none},
-    OptionRow{"--max-items", "N", "limit of placed items (default 2000000)", compiling,
-              [](Options& o, Text v) {
-                return store_parsed(o.max_items, parse_whole_number(v, 1, largest_item_limit));
-              }},
-    OptionRow{"--max-source", "BYTES", "limit of all source text (default 1073741824)", compiling,
-              [](Options& o, Text v) {
-                return store_parsed(o.max_source, parse_whole_number(v, 1, largest_source_limit));
-              }},
-    OptionRow{"--max-includes", "N", "limit of included files (default 4096)", compiling,
-              [](Options& o, Text v) {
-                return store_parsed(o.max_includes, parse_whole_number(v, 0, largest_item_limit));
-              }},
-    OptionRow{
-        "--max-include-depth", "N", "limit of includes inside each other (default 64)", compiling,
-        [](Options& o, Text v) {
-          return store_parsed(o.max_include_depth, parse_whole_number(v, 0, largest_include_depth));
-        }},
+#define SCENEC_LIMIT(member, option, value, lowest, highest, unit, what)       \
+  OptionRow{option, unit, "limit of " what " (default " #value ")", compiling, \
+            [](Options& o, Text v) { return store_limit(o.limits.member, v, lowest, highest); }},
+#include "base/limits.def"
+#undef SCENEC_LIMIT
     OptionRow{"--cache", "DIR|off", "where decoded meshes are kept (default: the user's cache)",
               VerbSet{Verb::render, Verb::check},
               [](Options& o, Text v) -> Problem {

@@ -12,6 +12,7 @@
 
 #include "backend/accel/precision.hpp"
 #include "backend/accel/target.hpp"
+#include "base/limits.hpp"
 #include "base/units.hpp"
 #include "grammar/parse.hpp"
 #include "ir/render_settings.hpp"
@@ -54,10 +55,7 @@ struct Options {
   std::optional<backend::Target> target;  // the best of this machine
   std::string root;  // empty: where the scene lies (runtime/root.hpp)
   bool strict_links = false;
-  std::optional<std::int64_t> max_items;
-  std::optional<std::int64_t> max_source;
-  std::optional<std::int64_t> max_includes;
-  std::optional<std::int64_t> max_include_depth;
+  Limits limits;
   std::string cache;  // `off` or a directory; empty: runtime/cache.hpp decides
   std::optional<std::uint64_t> cache_budget;
   std::optional<std::int64_t> threads;

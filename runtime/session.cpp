@@ -33,13 +33,7 @@ frontend::CompileOptions compile_options_of(const Options& options) {
   result.method = options.method;
   result.library = options.verb != Verb::render;
   result.camera_chosen = options.camera.has_value();
-  const auto limit = [](std::uint64_t& place, const std::optional<std::int64_t>& given) {
-    if (given) place = static_cast<std::uint64_t>(*given);
-  };
-  limit(result.max_items, options.max_items);
-  limit(result.source.total_bytes, options.max_source);
-  limit(result.source.include_files, options.max_includes);
-  limit(result.source.include_depth, options.max_include_depth);
+  result.limits = options.limits;
   for (const NameAndValue& setting : options.settings) {
     result.params.push_back({.name = setting.name, .value = setting.value});
   }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "backend/math/vec.hpp"
-#include "base/text_scan.hpp"
+#include "base/limits.hpp"
 
 namespace scenec::backend {
 
@@ -59,11 +59,19 @@ struct MeshData {
   std::vector<DroppedFace> dropped_faces;  // the first of them
 };
 
+// What of the limits concerns one mesh, and what no option sets.
 struct MeshLimits {
-  std::uint64_t file_bytes = std::uint64_t{2} << 30;
-  std::size_t line_bytes = longest_asset_line;
-  std::uint32_t polygon_vertices = 65'536;
-  std::uint64_t triangles = 50'000'000;
+  MeshLimits() : MeshLimits(Limits{}) {}
+  explicit MeshLimits(const Limits& limits)
+      : file_bytes(limits.mesh_bytes),
+        line_bytes(limits.line_bytes),
+        polygon_vertices(static_cast<std::uint32_t>(limits.polygon_corners)),
+        triangles(limits.mesh_triangles) {}
+
+  std::uint64_t file_bytes;
+  std::size_t line_bytes;
+  std::uint32_t polygon_vertices;
+  std::uint64_t triangles;
   // Point-in-triangle tests spent on concave polygons, over the whole file.
   std::uint64_t ear_tests = 200'000'000;
   std::size_t reported_dropped_faces = 1'024;

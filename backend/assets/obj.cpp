@@ -69,8 +69,8 @@ class ObjReader {
   }
 
  private:
-  bool fail(std::string message) {
-    problem_ = {scanner_.line(), std::move(message)};
+  bool fail(std::string message, std::string_view limit_option = {}) {
+    problem_ = {scanner_.line(), std::move(message), limit_option};
     return false;
   }
 
@@ -239,7 +239,8 @@ class ObjReader {
         return fail(fmt::format("corner {} of the face has another form than the first", size + 1));
       }
       if (size == limits_.polygon_vertices) {
-        return fail(fmt::format("face with more than {} corners", limits_.polygon_vertices));
+        return fail(fmt::format("face with more than {} corners", limits_.polygon_vertices),
+                    limit_option::polygon_corners);
       }
       ++size;
       faces_.corner_positions.push_back(read.position);
@@ -296,8 +297,10 @@ class ObjReader {
 Result<MeshData, AssetProblem> read_obj(std::string_view bytes, const MeshLimits& limits) {
   if (bytes.empty()) return Failure{AssetProblem{0, "file is empty"}};
   if (bytes.size() > limits.file_bytes) {
-    return Failure{AssetProblem{0, fmt::format("file has {} bytes; at most {} are allowed",
-                                               bytes.size(), limits.file_bytes)}};
+    return Failure{AssetProblem{
+        0,
+        fmt::format("file has {} bytes; at most {} are allowed", bytes.size(), limits.file_bytes),
+        limit_option::mesh_bytes}};
   }
   return ObjReader(bytes, limits).run();
 }

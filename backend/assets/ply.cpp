@@ -92,9 +92,11 @@ class PlyReader {
   }
 
  private:
-  bool fail(const PlyElement& element, std::uint64_t row, std::string_view what) {
+  bool fail(const PlyElement& element, std::uint64_t row, std::string_view what,
+            std::string_view limit_option = {}) {
     problem_ = {body_.line(),
-                fmt::format("{} {}: {}", printable(element.name, shown_text), row, what)};
+                fmt::format("{} {}: {}", printable(element.name, shown_text), row, what),
+                limit_option};
     return false;
   }
 
@@ -297,7 +299,8 @@ class PlyReader {
     if (count > limits_.polygon_vertices) {
       return fail(
           element, row,
-          fmt::format("{} corners; at most {} are allowed", count, limits_.polygon_vertices));
+          fmt::format("{} corners; at most {} are allowed", count, limits_.polygon_vertices),
+          limit_option::polygon_corners);
     }
     const auto size = static_cast<std::uint32_t>(count);
     for (std::uint32_t i = 0; i < size; ++i) {
@@ -351,8 +354,10 @@ std::optional<AssetProblem> find_missing_element(const PlyHeader& header) {
 Result<MeshData, AssetProblem> read_ply(std::string_view bytes, const MeshLimits& limits) {
   if (bytes.empty()) return Failure{AssetProblem{0, "file is empty"}};
   if (bytes.size() > limits.file_bytes) {
-    return Failure{AssetProblem{0, fmt::format("file has {} bytes; at most {} are allowed",
-                                               bytes.size(), limits.file_bytes)}};
+    return Failure{AssetProblem{
+        0,
+        fmt::format("file has {} bytes; at most {} are allowed", bytes.size(), limits.file_bytes),
+        limit_option::mesh_bytes}};
   }
   const Result<PlyHeader, AssetProblem> header = read_ply_header(bytes, limits);
   if (!header) return Failure{header.error()};

@@ -107,7 +107,8 @@ class Triangulator {
         faces_.triangles.size() + faces_.corner_positions.size() - 2 * faces_.sizes.size();
     if (count > limits_.triangles) {
       return AssetProblem{
-          0, fmt::format("{} triangles; at most {} are allowed", count, limits_.triangles)};
+          0, fmt::format("{} triangles; at most {} are allowed", count, limits_.triangles),
+          limit_option::mesh_triangles};
     }
     leading_ = faces_.triangles.size();
     mesh_.triangles = std::move(faces_.triangles);

@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/limits.hpp"
+
 namespace scenec::backend {
 
 enum class SampleEncoding : std::uint8_t {
@@ -33,10 +35,17 @@ struct FloatImage {
 // Linear values; whole numbers are divided by their largest, sRGB colour channels decoded.
 [[nodiscard]] FloatImage linear_image_of(const DecodedImage& image);
 
+// What of the limits concerns one picture.
 struct ImageLimits {
-  std::uint32_t side = 16'384;
-  std::uint64_t decoded_bytes = std::uint64_t{1} << 30;
-  std::uint64_t file_bytes = std::uint64_t{2} << 30;
+  ImageLimits() : ImageLimits(Limits{}) {}
+  explicit ImageLimits(const Limits& limits)
+      : side(static_cast<std::uint32_t>(limits.image_side)),
+        decoded_bytes(limits.image_memory),
+        file_bytes(limits.image_bytes) {}
+
+  std::uint32_t side;
+  std::uint64_t decoded_bytes;
+  std::uint64_t file_bytes;
 };
 
 }  // namespace scenec::backend

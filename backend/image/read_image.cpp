@@ -43,14 +43,16 @@ std::optional<AssetProblem> find_size_problem(std::uint64_t width, std::uint64_t
     return AssetProblem{0, fmt::format("declared size {} x {} has no pixels", width, height)};
   }
   if (width > limits.side || height > limits.side) {
-    return AssetProblem{
-        0, fmt::format("declared size {} x {}; at most {} pixels a side are allowed", width, height,
-                       limits.side)};
+    return AssetProblem{0,
+                        fmt::format("declared size {} x {}; at most {} pixels a side are allowed",
+                                    width, height, limits.side),
+                        limit_option::image_side};
   }
   if (width * height > limits.decoded_bytes / bytes_per_pixel) {
-    return AssetProblem{
-        0, fmt::format("{} x {} pixels take {} bytes; at most {} are allowed", width, height,
-                       width * height * bytes_per_pixel, limits.decoded_bytes)};
+    return AssetProblem{0,
+                        fmt::format("{} x {} pixels take {} bytes; at most {} are allowed", width,
+                                    height, width * height * bytes_per_pixel, limits.decoded_bytes),
+                        limit_option::image_memory};
   }
   return std::nullopt;
 }
@@ -60,8 +62,10 @@ Result<DecodedImage, AssetProblem> read_image(std::string_view bytes,
                                               const ImageLimits& limits) {
   if (bytes.empty()) return Failure{AssetProblem{0, "file is empty"}};
   if (bytes.size() > limits.file_bytes) {
-    return Failure{AssetProblem{0, fmt::format("file has {} bytes; at most {} are allowed",
-                                               bytes.size(), limits.file_bytes)}};
+    return Failure{AssetProblem{
+        0,
+        fmt::format("file has {} bytes; at most {} are allowed", bytes.size(), limits.file_bytes),
+        limit_option::image_bytes}};
   }
   const Decoder decoder = find_decoder(bytes, extension_hint);
   if (decoder == nullptr) {

@@ -46,8 +46,8 @@ std::string_view map_file(WordCursor cursor) {
 
 class MtlReader {
  public:
-  explicit MtlReader(std::string_view bytes)
-      : scanner_(bytes, longest_asset_line, LineScanner::Continuation::backslash) {}
+  MtlReader(std::string_view bytes, std::size_t longest_line)
+      : scanner_(bytes, longest_line, LineScanner::Continuation::backslash) {}
 
   Result<std::vector<MtlMaterial>, AssetProblem> run() {
     const bool read = for_each_line(scanner_, problem_, [&](std::string_view line) {
@@ -156,8 +156,9 @@ class MtlReader {
 
 }  // namespace
 
-Result<std::vector<MtlMaterial>, AssetProblem> read_mtl(std::string_view bytes) {
-  return MtlReader(bytes).run();
+Result<std::vector<MtlMaterial>, AssetProblem> read_mtl(std::string_view bytes,
+                                                        std::size_t longest_line) {
+  return MtlReader(bytes, longest_line).run();
 }
 
 }  // namespace scenec::frontend::course

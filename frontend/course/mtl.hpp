@@ -24,6 +24,7 @@ struct MtlMaterial {
 };
 
 // In file order.
-[[nodiscard]] Result<std::vector<MtlMaterial>, AssetProblem> read_mtl(std::string_view bytes);
+[[nodiscard]] Result<std::vector<MtlMaterial>, AssetProblem> read_mtl(std::string_view bytes,
+                                                                      std::size_t longest_line);
 
 }  // namespace scenec::frontend::course

@@ -14,7 +14,6 @@ namespace scenec::frontend::course {
 
 namespace {
 
-constexpr std::uint64_t obj_size_limit = std::uint64_t{2} << 30;
 constexpr std::uint64_t mtl_size_limit = std::uint64_t{16} << 20;
 
 struct ObjSummary {
@@ -39,12 +38,12 @@ void add_libraries(WordCursor cursor, std::vector<std::string>& libraries) {
 }
 
 // The mesh reader examines the file; here only what names a material is looked at.
-ObjSummary summary_of(std::string_view bytes) {
+ObjSummary summary_of(std::string_view bytes, std::size_t longest_line) {
   ObjSummary summary;
   std::unordered_map<std::string, bool> has_faces;
   std::string name;
   bool* current = &has_faces[name];
-  LineScanner scanner(bytes, longest_asset_line, LineScanner::Continuation::backslash);
+  LineScanner scanner(bytes, longest_line, LineScanner::Continuation::backslash);
   std::string_view line;
   while (scanner.next(line)) {
     WordCursor cursor(line);
@@ -72,7 +71,7 @@ class PartReader {
     const auto content = context_.files.read(path, mtl_size_limit);
     tried_.push_back(path);
     if (!content) return;
-    auto library = read_mtl(content.value().bytes);
+    auto library = read_mtl(content.value().bytes, context_.options.limits.line_bytes);
     if (!library) {
       context_.error(DiagnosticKind::mesh_broken, where_,
                      fmt::format("{}:{}: {}", path, library.error().line, library.error().message));
@@ -152,9 +151,9 @@ class PartReader {
 }  // namespace
 
 std::vector<ObjPart> read_obj_parts(Context& context, const std::string& obj_path, Span where) {
-  const auto obj = context.files.read(obj_path, obj_size_limit);
+  const auto obj = context.files.read(obj_path, context.options.limits.mesh_bytes);
   if (!obj) return {};
-  const ObjSummary summary = summary_of(obj.value().bytes);
+  const ObjSummary summary = summary_of(obj.value().bytes, context.options.limits.line_bytes);
   PartReader reader(context, obj_path, where);
   for (const std::string& library : summary.libraries) reader.read_library(library);
   std::vector<ObjPart> parts;

@@ -9,6 +9,7 @@
 
 #include "base/diagnostic.hpp"
 #include "base/file_system.hpp"
+#include "base/limits.hpp"
 #include "base/source_map.hpp"
 #include "grammar/syntax_tree.hpp"
 #include "ir/render_settings.hpp"
@@ -24,6 +25,7 @@ struct TranslateOptions {
   std::string scene_path;            // of the course file, for resolving assets
   std::string output_directory;      // paths in the text are written relative to it
   std::optional<ir::Method> method;  // none: by vocabulary
+  Limits limits = {};
 };
 
 // Words without a reading, wrong arities and counts are reported; the translation goes on with what

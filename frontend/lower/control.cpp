@@ -33,7 +33,7 @@ void Lowering::for_loop(NodeRef node, Scope& scope, const Surroundings& around) 
   if (!parts.body) return;
   const auto round = [&](Scope& variables) {
     body(parts.body, variables, around);
-    return !session_.out_of_steps() && session_.item_count() <= session_.options.max_items;
+    return !session_.out_of_steps() && session_.item_count() <= session_.options.limits.items;
   };
   if (!session_.running()) {
     const Session::CheckOnly check(session_);

@@ -18,24 +18,13 @@ using grammar::SyntaxKind;
 template <class T>
 void Lowering::read_light(const ast::Item& parts, NodeRef node, Scope& scope,
                           const Surroundings& around) {
+  const Span head = parts.kind.span();
   T light{};
-  bool sound = false;
-  {
-    const FieldsLease lease(*this);
-    Scope inside(&scope);
-    collect(parts.block, inside, *lease.fields);
-    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name,
-                         parts.kind.span());
-    checker.read(light);
-    checker.template finish<T>();
-    sound = checker.sound();
-    if (sound && !session_.checking_only())
-      check_light(session_, light, checker, parts.kind.span());
-    close(inside);
-  }
+  const bool sound = read_block(
+      parts.block, head, scope,
+      [&](const BlockChecker& checker) { check_light(session_, light, checker, head); }, light);
   if (session_.checking_only()) return;
   notes_.light = true;
-  const Span head = parts.kind.span();
   if (!session_.count_item(head)) return;
   if (!notes_.first_placed.valid()) notes_.first_placed = head;
   ir::LightKind kind = std::move(light);
@@ -65,24 +54,14 @@ void Lowering::light(NodeRef node, Scope& scope, const Surroundings& around) {
 template <class T>
 void Lowering::read_camera(const ast::Item& parts, NodeRef node, Scope& scope,
                            const Surroundings& around) {
+  const Span head = parts.kind.span();
   T camera{};
-  bool sound = false;
-  {
-    const FieldsLease lease(*this);
-    Scope inside(&scope);
-    collect(parts.block, inside, *lease.fields);
-    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name,
-                         parts.kind.span());
-    checker.read(camera);
-    checker.template finish<T>();
-    sound = checker.sound();
-    if (sound && !session_.checking_only())
-      check_camera(session_, camera, checker, parts.kind.span());
-    close(inside);
-  }
+  const bool sound = read_block(
+      parts.block, head, scope,
+      [&](const BlockChecker& checker) { check_camera(session_, camera, checker, head); }, camera);
   if (session_.checking_only()) return;
   ir::CameraKind kind = std::move(camera);
-  if (!sound || !bake(session_, around.transform, kind, parts.kind.span())) return;
+  if (!sound || !bake(session_, around.transform, kind, head)) return;
   const ir::NameId name = parts.name ? session_.builder.add_name(parts.name.text()) : ir::NameId{};
   for (const ir::Declared& other : session_.builder.scene().camera_names) {
     if (!name.valid() || other.name != name) continue;
@@ -130,21 +109,17 @@ void Lowering::render_block(NodeRef node, Scope& scope) {
         Diagnostic(DiagnosticKind::duplicate_render, head, "there are two `render` blocks")
             .note("the first is here", notes_.render));
   }
-  const FieldsLease lease(*this);
-  Scope inside(&scope);
-  collect(block, inside, *lease.fields);
   ir::RenderSettings settings;
-  BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields,
-                       ir::Schema<ir::RenderSettings>::name, head);
-  checker.read(settings);
-  checker.finish<ir::RenderSettings>();
-  close(inside);
-  if (session_.checking_only() || again) return;
-  if (checker.sound()) check_render(session_, settings, checker);
   const auto key = [](auto member) { return key_name<ir::RenderSettings>(member); };
-  settings.background_written = checker.written(key(&ir::RenderSettings::background)) != nullptr;
-  if (const Field* field = checker.written(key(&ir::RenderSettings::camera)))
-    notes_.camera_key = field->expression;
+  const auto checked = [&](const BlockChecker& checker) {
+    if (again) return;
+    check_render(session_, settings, checker);
+    settings.background_written = checker.written(key(&ir::RenderSettings::background)) != nullptr;
+    if (const Field* field = checker.written(key(&ir::RenderSettings::camera)))
+      notes_.camera_key = field->expression;
+  };
+  static_cast<void>(read_block(block, head, scope, checked, settings));
+  if (session_.checking_only() || again) return;
   notes_.render = head;
   render_ = std::move(settings);
   render_origin_ = session_.add_origin(node.span());

@@ -115,7 +115,7 @@ void Lowering::items(NodeRef block, Scope& scope, const Surroundings& around, Pa
     if ((pass == Pass::declarations && !declaration) || (pass == Pass::placements && !placement))
       continue;
     item(child, scope, around);
-    if (session_.out_of_steps() || session_.item_count() > session_.options.max_items) return;
+    if (session_.out_of_steps() || session_.item_count() > session_.options.limits.items) return;
   }
 }
 

@@ -100,6 +100,12 @@ class Lowering final : public FieldCollector {
   void render_block(NodeRef node, Scope& scope);
   template <class T>
   void place(const ast::Item& parts, NodeRef node, Scope& scope, const Surroundings& around);
+  // The keys of a block into `first`, whose schema names the block, and the `rest`. Then
+  // `checked(checker)`, when all is right and values are known. False: something is wrong
+  // (reported).
+  template <class Checked, class First, class... Rest>
+  bool read_block(NodeRef block, Span head, Scope& scope, const Checked& checked, First& first,
+                  Rest&... rest);
   template <class T>
   void read_light(const ast::Item& parts, NodeRef node, Scope& scope, const Surroundings& around);
   template <class T>

@@ -19,6 +19,23 @@ struct Lowering::FieldsLease {
   Fields* fields = nullptr;
 };
 
+template <class Checked, class First, class... Rest>
+bool Lowering::read_block(NodeRef block, Span head, Scope& scope, const Checked& checked,
+                          First& first, Rest&... rest) {
+  const FieldsLease lease(*this);
+  Scope inside(&scope);
+  collect(block, inside, *lease.fields);
+  BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<First>::name,
+                       head);
+  checker.read(first);
+  (checker.read(rest), ...);
+  checker.template finish<First, Rest...>();
+  const bool sound = checker.sound();
+  if (sound && !session_.checking_only()) checked(checker);
+  close(inside);
+  return sound;
+}
+
 // Calls f.operator()<T>() for the T of a variant or type list whose schema has the name; false when
 // there is none.
 template <class List>

@@ -44,16 +44,18 @@ Modules::Place Modules::place_of(const std::string& written, FileId from) const 
 bool Modules::parse(FileId file, std::string_view text, NodeRef use, Module& module) {
   session_.note_include(file, use.span());
   source_bytes_ += text.size();
-  const std::uint64_t most = session_.options.source.total_bytes;
+  const std::uint64_t most = session_.options.limits.source_bytes;
   if (source_bytes_ > most) {
     session_.error(
         Diagnostic(DiagnosticKind::text_too_long, use.span(),
                    fmt::format("the scene and what it includes have more than {} bytes", most))
-            .hint("`--max-source` sets the limit"));
+            .hint(sets_the_limit(limit_option::source_bytes)));
     return false;
   }
+  DiagnosticSink found;  // told with the way to the file
   module.tree = std::make_unique<grammar::SyntaxTree>(
-      parsed_text(session_.options, grammar::Dialect::sdl, file, text, session_.sink));
+      parsed_text(session_.options, grammar::Dialect::sdl, file, text, found));
+  for (Diagnostic& diagnostic : found.sorted()) session_.report(std::move(diagnostic));
   Hasher hasher;
   hasher.add(session_.sources.path(file));
   hasher.add(text);
@@ -114,19 +116,19 @@ bool Modules::is_cycle(const std::string& path, FileIdentity identity, NodeRef u
 }
 
 bool Modules::check_limits(NodeRef use) {
-  const SourceLimits& limits = session_.options.source;
+  const Limits& limits = session_.options.limits;
   const auto exceeded = [&](std::string message, std::string_view option) {
     session_.error(Diagnostic(DiagnosticKind::too_many_includes, use.span(), std::move(message))
-                       .hint(fmt::format("`{}` sets the limit", option)));
+                       .hint(sets_the_limit(option)));
     return false;
   };
   if (open_.size() > limits.include_depth) {
     return exceeded(fmt::format("includes are nested deeper than {}", limits.include_depth),
-                    "--max-include-depth");
+                    limit_option::include_depth);
   }
   if (modules_.size() > limits.include_files) {
     return exceeded(fmt::format("there are more than {} included files", limits.include_files),
-                    "--max-includes");
+                    limit_option::include_files);
   }
   return true;
 }

@@ -76,20 +76,13 @@ void Lowering::place(const ast::Item& parts, NodeRef node, Scope& scope,
   const Span head = parts.kind ? parts.kind.span() : parts.block.span();
   T shape{};
   ir::Placing placing;
-  bool material_written = false;
-  {
-    const FieldsLease lease(*this);
-    Scope inside(&scope);
-    collect(parts.block, inside, *lease.fields);
-    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name,
-                         head);
-    checker.read(shape);
-    checker.read(placing);
-    checker.template finish<T, ir::Placing>();
-    if (checker.sound() && !session_.checking_only()) check_shape(session_, shape, checker, head);
+  // Where a key is wrong the material may be the one: nothing is said of its absence.
+  bool material_written = true;
+  const auto checked = [&](const BlockChecker& checker) {
+    check_shape(session_, shape, checker, head);
     material_written = checker.written(key_name<ir::Placing>(&ir::Placing::material)) != nullptr;
-    close(inside);
-  }
+  };
+  static_cast<void>(read_block(parts.block, head, scope, checked, shape, placing));
   if (session_.checking_only() || !session_.count_item(head)) return;
   if (!around.in_proto && !notes_.first_placed.valid()) notes_.first_placed = head;
   ir::Item item;
@@ -161,19 +154,11 @@ template <class T>
 void Lowering::read_material(const ast::Item& parts, NodeRef node, Scope& scope, Value& value) {
   T kind{};
   ir::MaterialCommon common;
-  {
-    const FieldsLease lease(*this);
-    Scope inside(&scope);
-    collect(parts.block, inside, *lease.fields);
-    BlockChecker checker(session_, evaluator_, *this, inside, *lease.fields, ir::Schema<T>::name,
-                         parts.kind.span());
-    checker.read(kind);
-    checker.read(common);
-    checker.template finish<T, ir::MaterialCommon>();
-    if (checker.sound() && !session_.checking_only())
-      lint_material(session_, kind, checker, parts.kind.span());
-    close(inside);
-  }
+  const Span head = parts.kind.span();
+  static_cast<void>(read_block(
+      parts.block, head, scope,
+      [&](const BlockChecker& checker) { lint_material(session_, kind, checker, head); }, kind,
+      common));
   if (session_.checking_only()) return;
   if (common.emission.texture.valid() || common.emission.value != ir::black) notes_.emission = true;
   const ir::NameId name = session_.builder.add_name(parts.name.text());

@@ -19,7 +19,7 @@ ExitCode verbs::check(const Options& options, const Environment& environment) {
     std::optional<ContentCache> cache;
     if (auto kept = cache_options_of(options, environment)) cache.emplace(std::move(*kept));
     static_cast<void>(backend::prepare(*scene, session.files(), pool, session.sink(),
-                                       cache ? &*cache : nullptr));
+                                       cache ? &*cache : nullptr, options.limits));
   }
   return session.finish(environment);
 }

@@ -104,7 +104,8 @@ class RenderRun {
     const auto settings = settings_of(options_, *scene, environment_);
     if (!settings) return ExitCode::usage;
     const backend::PreparedPtr prepared =
-        backend::prepare(*scene, session_.files(), pool_, session_.sink(), cache());
+        backend::prepare(*scene, session_.files(), pool_, session_.sink(), cache(),
+                         options_.limits);
     clock_.finish("prepare");
     if (!prepared) return session_.finish(environment_);
     if (!outputs_are_no_inputs()) return refuse_output();

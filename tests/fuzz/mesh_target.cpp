@@ -97,7 +97,7 @@ void require_sound(const Result<MeshData, AssetProblem>& mesh) {
 
 void fuzz_mesh(std::string_view bytes) {
   require_sound(backend::read_obj(bytes, small_limits()));
-  const auto library = frontend::course::read_mtl(bytes);
+  const auto library = frontend::course::read_mtl(bytes, Limits{}.line_bytes);
   if (!library) return require_told(library.error());
   for (const frontend::course::MtlMaterial& material : library.value()) {
     for (const auto& color : {material.diffuse, material.specular, material.emission}) {

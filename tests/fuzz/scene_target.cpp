@@ -58,8 +58,8 @@ Run compile(FileSystem& files, const std::string& path, std::uint64_t allowance 
   DiagnosticSink sink;
   frontend::CompileOptions options;
   options.library = true;
-  options.max_items = most_items * allowance;
-  options.max_steps = most_steps * allowance;
+  options.limits.items = most_items * allowance;
+  options.limits.steps = most_steps * allowance;
   run.scene = frontend::compile(path, options, files, run.sources, sink);
   require(run.scene.has_value() != sink.has_errors(), "a scene or an error, never both");
   print(sink, run);

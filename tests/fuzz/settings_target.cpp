@@ -105,8 +105,8 @@ void fuzz_settings(std::string_view bytes) {
   const std::vector<std::string> words = words_of(bytes, json);
   const runtime::CommandLine command = runtime::parse_command_line(words);
   frontend::CompileOptions options;
-  options.max_items = 100;
-  options.max_steps = 100'000;
+  options.limits.items = 100;
+  options.limits.steps = 100'000;
   options.params = settings_of_file(json);
   if (const auto* usage = std::get_if<runtime::UsageError>(&command)) {
     require(!usage->message.empty() && usage->message.size() < 10'000, "a message", usage->message);

@@ -300,7 +300,7 @@ TEST(Compile, mistakes_in_a_macro_show_the_call) {
 
 TEST(Compile, too_many_items) {
   Compiler compiler;
-  compiler.options.max_items = 50;
+  compiler.options.limits.items = 50;
   EXPECT_EQ(compiler(scene_with("for i in 0 ..< 100 { sphere { material = grey; } }")).codes,
             "E0721");
 }

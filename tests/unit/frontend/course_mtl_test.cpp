@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/limits.hpp"
 #include "tests/support/hostile.hpp"
 
 namespace scenec::frontend::course {
@@ -13,13 +14,13 @@ constexpr std::string_view sample =
     "map_bump -bm 0.2 bump.png\nmap_d mask.png\nKm 1\nnewmtl b\nd 0.5\n";
 
 std::string problem_of(std::string_view text) {
-  const auto library = read_mtl(text);
+  const auto library = read_mtl(text, Limits{}.line_bytes);
   if (library) return "read";
   return std::to_string(library.error().line) + ": " + library.error().message;
 }
 
 TEST(Mtl, ReadsItsStatements) {
-  const auto library = read_mtl(sample);
+  const auto library = read_mtl(sample, Limits{}.line_bytes);
   ASSERT_TRUE(library.ok()) << library.error().message;
   ASSERT_EQ(library.value().size(), 2u);
   const MtlMaterial& red = library.value()[0];
@@ -44,7 +45,7 @@ TEST(Mtl, LocatesWhatIsWrong) {
 }
 
 TEST(Mtl, SurvivesPrefixesAndRandomDamage) {
-  const auto read = [](std::string_view bytes) { return read_mtl(bytes).ok(); };
+  const auto read = [](std::string_view bytes) { return read_mtl(bytes, Limits{}.line_bytes).ok(); };
   test::read_every_prefix(sample, read);
   test::read_with_random_damage(sample, 5, 20'000, read);
 }

@@ -119,9 +119,9 @@ TEST(Includes, limits_name_their_options) {
                : messages_of(sink);
   };
   CompileOptions depth, count, bytes;
-  depth.source.include_depth = 4;
-  count.source.include_files = 3;
-  bytes.source.total_bytes = 300;
+  depth.limits.include_depth = 4;
+  count.limits.include_files = 3;
+  bytes.limits.source_bytes = 300;
   EXPECT_EQ(hint(depth), "includes are nested deeper than 4; `--max-include-depth` sets the limit");
   EXPECT_EQ(hint(count), "there are more than 3 included files; `--max-includes` sets the limit");
   EXPECT_EQ(
@@ -130,7 +130,7 @@ TEST(Includes, limits_name_their_options) {
   MemoryFileSystem files = diamond(6);
   SourceMap sources;
   DiagnosticSink sink;
-  depth.source.include_depth = 6;
+  depth.limits.include_depth = 6;
   EXPECT_TRUE(compile("scene.sdl", depth, files, sources, sink)) << messages_of(sink);
 }
 

@@ -41,7 +41,7 @@ TEST(Limits, a_bomb_of_macros_ends_at_the_item_limit) {
             repeated("m" + std::to_string(i - 1) + "();", 10) + "}\n";
   }
   Compiler compiler;
-  compiler.options.max_items = 1000;
+  compiler.options.limits.items = 1000;
   EXPECT_EQ(compiler(scene_with(text + "m11();")).codes, "E0721");
 }
 

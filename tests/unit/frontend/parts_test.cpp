@@ -138,7 +138,7 @@ TEST(Parts, settings_and_limits_hold) {
     EXPECT_EQ(outcome_of("scene.sdl", files, parts), outcome_of("scene.sdl", files, whole));
   }
   CompileOptions whole = whole_options(), parts = part_options(1);
-  whole.max_items = parts.max_items = 2;
+  whole.limits.items = parts.limits.items = 2;
   EXPECT_EQ(outcome_of("scene.sdl", files, parts), outcome_of("scene.sdl", files, whole));
 }
 
