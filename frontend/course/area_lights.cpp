@@ -29,20 +29,26 @@ Vector scaled_to(const Vector& v, double wanted) {
   return {v[0] * wanted / own, v[1] * wanted / own, v[2] * wanted / own};
 }
 
-// A direction across an axis: `Z-` is axis 2, sign -1.
-struct Axis {
-  std::size_t index = 0;
-  double sign = 1;
-};
-std::optional<Axis> axis_of(std::string_view word) {
-  if (word.size() != 2 || word[0] < 'X' || word[0] > 'Z' || (word[1] != '+' && word[1] != '-'))
-    return std::nullopt;
-  return Axis{static_cast<std::size_t>(word[0] - 'X'), word[1] == '+' ? 1.0 : -1.0};
-}
 constexpr std::array<Role, 3> axis_roles{Role::axis_x, Role::axis_y, Role::axis_z};
 constexpr std::array<std::string_view, 3> axis_words{"X", "Y", "Z"};
 
 }  // namespace
+
+// A direction across an axis: `Z-` is axis 2, sign -1.
+struct Lights::Axis {
+  std::size_t index = 0;
+  double sign = 1;
+};
+
+std::optional<Lights::Axis> Lights::axis_of_normal(const Light& light) {
+  const Entry& normal = light.fields[Role::direction];
+  const std::string_view word = normal.name;
+  if (word.size() == 2 && word[0] >= 'X' && word[0] <= 'Z' && (word[1] == '+' || word[1] == '-'))
+    return Axis{static_cast<std::size_t>(word[0] - 'X'), word[1] == '+' ? 1.0 : -1.0};
+  context_.error(DiagnosticKind::course_wrong_values, normal.span,
+                 "`normal` takes one of `X+`, `X-`, `Y+`, `Y-`, `Z+`, `Z-` here");
+  return std::nullopt;
+}
 
 void Lights::write_sphere(const Light& light, Text& out) {
   if (!require(light, {Role::position, Role::radius, Role::color})) return;
@@ -66,12 +72,9 @@ void Lights::write_disk(const Light& light, Text& out) {
   if (!require(light, {Role::position, Role::direction, Role::radius, Role::color})) return;
   Item item;
   item.head.put("light: disk", light.block.word_span);
-  item.add("center", list_of(light.fields[Role::position].numbers),
-           light.fields[Role::position].span);
-  item.add("normal", list_of(light.fields[Role::direction].numbers),
-           light.fields[Role::direction].span);
-  item.add("radius", text_of(light.fields[Role::radius].numbers[0]),
-           light.fields[Role::radius].span);
+  add_list(item, "center", light, Role::position);
+  add_list(item, "normal", light, Role::direction);
+  add_number(item, "radius", light, Role::radius);
   add_strength(item, light);
   finish(item, light, out);
 }
@@ -79,12 +82,8 @@ void Lights::write_disk(const Light& light, Text& out) {
 void Lights::write_axis_disk(const Light& light, Text& out) {
   if (!require(light, {Role::position, Role::direction, Role::radius, Role::color})) return;
   const Entry& normal = light.fields[Role::direction];
-  const auto axis = axis_of(normal.name);
-  if (!axis) {
-    context_.error(DiagnosticKind::course_wrong_values, normal.span,
-                   "`normal` takes one of `X+`, `X-`, `Y+`, `Y-`, `Z+`, `Z-` here");
-    return;
-  }
+  const auto axis = axis_of_normal(light);
+  if (!axis) return;
   Vector center{};
   Vector direction{};
   center[axis->index] = light.fields.value(Role::position, 0);
@@ -96,21 +95,15 @@ void Lights::write_axis_disk(const Light& light, Text& out) {
   item.head.put("light: disk", light.block.word_span);
   item.add("center", list_of_values(center, light.fields[Role::position].values_span()));
   item.add("normal", list_of_values(direction, normal.name_span), normal.span);
-  item.add("radius", text_of(light.fields[Role::radius].numbers[0]),
-           light.fields[Role::radius].span);
+  add_number(item, "radius", light, Role::radius);
   add_strength(item, light);
   finish(item, light, out);
 }
 
 void Lights::write_axis_rect(const Light& light, Text& out) {
   if (!require(light, {Role::position, Role::direction, Role::color})) return;
-  const Entry& normal = light.fields[Role::direction];
-  const auto axis = axis_of(normal.name);
-  if (!axis) {
-    context_.error(DiagnosticKind::course_wrong_values, normal.span,
-                   "`normal` takes one of `X+`, `X-`, `Y+`, `Y-`, `Z+`, `Z-` here");
-    return;
-  }
+  const auto axis = axis_of_normal(light);
+  if (!axis) return;
   Vector corner{};
   corner[axis->index] = light.fields.value(Role::position, 0);
   std::array<Vector, 2> edges{};
@@ -177,10 +170,9 @@ void Lights::write_parallelogram(const Light& light, Text& out) {
   if (!require(light, {Role::position, Role::edge_u, Role::edge_v, Role::color})) return;
   Item item;
   item.head.put("light: quad", light.block.word_span);
-  item.add("corner", list_of(light.fields[Role::position].numbers),
-           light.fields[Role::position].span);
-  item.add("edge_u", list_of(light.fields[Role::edge_u].numbers), light.fields[Role::edge_u].span);
-  item.add("edge_v", list_of(light.fields[Role::edge_v].numbers), light.fields[Role::edge_v].span);
+  add_list(item, "corner", light, Role::position);
+  add_list(item, "edge_u", light, Role::edge_u);
+  add_list(item, "edge_v", light, Role::edge_v);
   add_strength(item, light);
   finish(item, light, out);
 }
@@ -190,10 +182,8 @@ void Lights::write_disk_of_area(const Light& light, Text& out) {
   const Entry& area = light.fields[Role::area];
   Item item;
   item.head.put("light: disk", light.block.word_span);
-  item.add("center", list_of(light.fields[Role::position].numbers),
-           light.fields[Role::position].span);
-  item.add("normal", list_of(light.fields[Role::direction].numbers),
-           light.fields[Role::direction].span);
+  add_list(item, "center", light, Role::position);
+  add_list(item, "normal", light, Role::direction);
   item.add("radius",
            text_of_value(std::sqrt(std::max(area.numbers[0].value, 0.0) / pi), area.values_span()),
            area.span);

@@ -37,4 +37,21 @@ struct Count {
   }
 };
 
+// Calls `read_one(entry)` for each entry of a block that states how many there are under `word`.
+template <class ReadOne>
+void read_counted(Context& context, const Entry& block, Place place, std::string_view word,
+                  std::string_view what, const ReadOne& read_one) {
+  BlockReader reader(context, block.block, place);
+  Count count;
+  while (const auto entry = reader.next()) {
+    if (entry->role() == Role::count) {
+      count.state(*entry);
+    } else {
+      ++count.found;
+      read_one(*entry);
+    }
+  }
+  count.check(context, word, what, reader, block.word_span);
+}
+
 }  // namespace scenec::frontend::course

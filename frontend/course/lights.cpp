@@ -149,18 +149,32 @@ void Lights::write_point(const Light& light, Text& out) {
   item.head.put("light: point", light.block.word_span);
   item.add("position", list_of(position.numbers), position.span);
   const Entry* const falloff = light.fields.find(Role::falloff);
+  if (power == nullptr && falloff != nullptr && falloff->numbers[0].value > 0) {
+    Text intensity(inverse_pi_ ? "pi / " : "1 / ");
+    item.add("intensity", intensity.put(text_of(falloff->numbers[0])), falloff->span);
+  } else {
+    add_power_or_unit(item, power);
+  }
+  item.add("color", color_of_light(light));
+  finish(item, light, out);
+}
+
+void Lights::add_list(Item& item, std::string_view key, const Light& light, Role role) {
+  item.add(key, list_of(light.fields[role].numbers), light.fields[role].span);
+}
+
+void Lights::add_number(Item& item, std::string_view key, const Light& light, Role role) {
+  item.add(key, text_of(light.fields[role].numbers[0]), light.fields[role].span);
+}
+
+void Lights::add_power_or_unit(Item& item, const Entry* power) const {
   if (power != nullptr) {
     item.add("power", power->numbers.size() == 1 ? text_of(power->numbers[0]) : Text("1"),
              power->span);
-  } else if (falloff != nullptr && falloff->numbers[0].value > 0) {
-    Text intensity(inverse_pi_ ? "pi / " : "1 / ");
-    item.add("intensity", intensity.put(text_of(falloff->numbers[0])), falloff->span);
   } else {
     item.add("intensity", inverse_pi_ ? "pi" : "1");
     item.add("decay", ".none");
   }
-  item.add("color", color_of_light(light));
-  finish(item, light, out);
 }
 
 void Lights::write_directional(const Light& light, Text& out) {
@@ -184,18 +198,10 @@ void Lights::write_spot(const Light& light, Text& out) {
   const Entry& angle = light.fields[Role::angle];
   Item item;
   item.head.put("light: spot", light.block.word_span);
-  item.add("position", list_of(light.fields[Role::position].numbers),
-           light.fields[Role::position].span);
-  item.add("direction", list_of(light.fields[Role::direction].numbers),
-           light.fields[Role::direction].span);
+  add_list(item, "position", light, Role::position);
+  add_list(item, "direction", light, Role::direction);
   item.add("angle", degrees_of(angle.numbers[0]), angle.span);
-  if (const Entry* const power = light.fields.find(Role::power)) {
-    item.add("power", power->numbers.size() == 1 ? text_of(power->numbers[0]) : Text("1"),
-             power->span);
-  } else {
-    item.add("intensity", inverse_pi_ ? "pi" : "1");
-    item.add("decay", ".none");
-  }
+  add_power_or_unit(item, light.fields.find(Role::power));
   item.add("color", color_of_light(light));
   finish(item, light, out);
 }

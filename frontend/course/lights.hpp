@@ -2,7 +2,9 @@
 // glowing objects they may coincide with have been seen.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "frontend/course/objects.hpp"
@@ -41,6 +43,14 @@ class Lights {
   void write_skybox(const Light& light, Text& out);
   [[nodiscard]] bool require(const Light& light, std::initializer_list<Role> roles);
   [[nodiscard]] Text color_of_light(const Light& light) const;
+  // The native key from the numbers of a word.
+  static void add_list(Item& item, std::string_view key, const Light& light, Role role);
+  static void add_number(Item& item, std::string_view key, const Light& light, Role role);
+  // Strength of a point or spot light: power where it is given, else as the course has it.
+  void add_power_or_unit(Item& item, const Entry* power) const;
+  // The axis that `normal` names; nothing when it names none (reported).
+  struct Axis;
+  [[nodiscard]] std::optional<Axis> axis_of_normal(const Light& light);
   // radiance and colour, or power where it is given.
   void add_strength(Item& item, const Light& light) const;
   void finish(Item& item, const Light& light, Text& out) const;

@@ -56,31 +56,13 @@ std::optional<TextureUse> Materials::read_texture(const Entry& entry) {
 }
 
 void Materials::read_textures(const Entry& block) {
-  BlockReader reader(context_, block.block, Place::textures);
-  Count count;
-  while (const auto entry = reader.next()) {
-    if (entry->role() == Role::count) {
-      count.state(*entry);
-    } else {
-      ++count.found;
-      textures_.push_back(read_texture(*entry));
-    }
-  }
-  count.check(context_, "numTextures", "texture", reader, block.word_span);
+  read_counted(context_, block, Place::textures, "numTextures", "texture",
+               [&](const Entry& entry) { textures_.push_back(read_texture(entry)); });
 }
 
 void Materials::read(const Entry& block) {
-  BlockReader reader(context_, block.block, Place::materials);
-  Count count;
-  while (const auto entry = reader.next()) {
-    if (entry->role() == Role::count) {
-      count.state(*entry);
-    } else {
-      ++count.found;
-      read_one(*entry);
-    }
-  }
-  count.check(context_, "numMaterials", "material", reader, block.word_span);
+  read_counted(context_, block, Place::materials, "numMaterials", "material",
+               [&](const Entry& entry) { read_one(entry); });
 }
 
 void Materials::read_one(const Entry& block) {
