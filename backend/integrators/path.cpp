@@ -116,7 +116,7 @@ void absorb(const Tracer& tracer, PathState& path, double distance) {
 bool survives(PathState& path, const Sampler& sampler) {
   if (is_black(path.throughput)) return false;
   if (path.depth <= sure_bounces) return true;
-  const double p = std::fmin(longest_survival, max_component(path.throughput) * path.eta_scale);
+  const double p = smaller(longest_survival, max_component(path.throughput) * path.eta_scale);
   if (!(sampler.get_1d(dimension::bounce(path.depth - 1) + dimension::roulette) < p)) return false;
   path.throughput *= 1 / p;
   return true;

@@ -134,7 +134,7 @@ class WhittedTracer {
     const double share = max_component(branch.throughput);
     if (!(share > 0)) return false;
     if (share >= sure_share && branch.depth < longest_sure) return true;
-    const double p = std::fmin(longest_survival, share / sure_share);
+    const double p = smaller(longest_survival, share / sure_share);
     if (!(sampler_.get_1d(base + dimension::roulette) < p)) return false;
     branch.throughput *= 1 / p;
     return true;

@@ -31,7 +31,7 @@ AreaPoint ellipsoid_point(const Emitter& e, Sample2 u) {
 }
 
 AreaPoint tube_point(const Emitter& e, Sample2 u) {
-  const SinCos angle = sin_cos(2 * pi * u.u);
+  const SinCos angle = sin_cos_of_turns(u.u);
   const Vector3 tangent = e.b * angle.cos - e.a * angle.sin;
   const Vector3 n = cross(tangent, e.c);
   const double jacobian = 2 * pi * length(n);
@@ -108,7 +108,7 @@ EmitterSample cone_sample(const Emitter& e, const Point3& from, double sin2, Sam
   s.wi = frame.world_of(local);
   const double sine2 = local.x() * local.x() + local.y() * local.y();
   const double along = std::sqrt(distance2) * local.z() -
-                       std::sqrt(std::fmax(0, e.radius * e.radius - distance2 * sine2));
+                       std::sqrt(larger(0, e.radius * e.radius - distance2 * sine2));
   s.normal = normalized(from + s.wi.vector() * along - e.origin, -s.wi);
   s.point = e.origin + s.normal.vector() * e.radius;
   s.pdf = pdf_uniform_cone(sin2);

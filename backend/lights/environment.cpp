@@ -110,8 +110,8 @@ Environment::Choice Environment::sample(Sample2 u) const {
   const double across =
       (static_cast<double>(column.index) + column.within) / static_cast<double>(width_);
   const double down = (static_cast<double>(row.index) + row.within) / static_cast<double>(height_);
-  const SinCos azimuth = sin_cos(2 * pi * (across - 0.5));
-  const SinCos polar = sin_cos(pi * down);
+  const SinCos azimuth = sin_cos_of_turns(across - 0.5);
+  const SinCos polar = sin_cos_of_turns(0.5 * down);
   const double x = polar.sin * azimuth.sin;
   const double z = -polar.sin * azimuth.cos;
   const Vector3 d{x * turn_cos_ + z * turn_sin_, polar.cos, z * turn_cos_ - x * turn_sin_};

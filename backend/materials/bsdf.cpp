@@ -29,7 +29,7 @@ Rgb through_coat(const Bsdf& b, double cos_wi) {
   const Rgb in =
       Rgb(1, 1, 1) - b.albedo->directional(cos_wi, b.alpha).of(b.specular) * b.compensation;
   // The compensation is that of the viewer's direction: for bright coats it may pass 1 elsewhere.
-  return Rgb(std::fmax(0, in.r), std::fmax(0, in.g), std::fmax(0, in.b)) * b.coat_out;
+  return Rgb(larger(0, in.r), larger(0, in.g), larger(0, in.b)) * b.coat_out;
 }
 
 BsdfValue evaluate_diffuse(const Rgb& albedo, double cos_wi, double probability) {
@@ -125,7 +125,7 @@ BsdfSample sample_rough_glass(const Bsdf& b, double lobe, Sample2 u) {
   const Vector3 m = sample_ggx_normal(b.wo, b.alpha, u);
   const double o = dot(b.wo, m);
   if (!(o > 0)) return absorbed();
-  const DielectricFresnel f = fresnel_dielectric(std::fmin(1, o), b.ior);
+  const DielectricFresnel f = fresnel_dielectric(smaller(1, o), b.ior);
   BsdfSample s;
   Vector3 wi;
   if (lobe < f.reflectance) {
@@ -169,8 +169,8 @@ BsdfSample sample_phong(const Bsdf& b, double lobe, Sample2 u) {
   if (lobe < p[0]) return combined(b, sample_cosine_hemisphere(u).vector());
   if (lobe < p[0] + p[1]) {
     const double cos_alpha = pow(u.u, 1 / (b.exponent + 1));
-    const double sin_alpha = std::sqrt(std::fmax(0, 1 - cos_alpha * cos_alpha));
-    const SinCos phi = sin_cos(2 * pi * u.v);
+    const double sin_alpha = std::sqrt(larger(0, 1 - cos_alpha * cos_alpha));
+    const SinCos phi = sin_cos_of_turns(u.v);
     const Frame about = frame_about(UnitVector3::assume_unit(reflected(b.wo, {0, 0, 1})));
     return combined(b,
                     about.world_of(Vector3{sin_alpha * phi.cos, sin_alpha * phi.sin, cos_alpha}));
@@ -203,11 +203,11 @@ void finish(Bsdf& b) {
     const Rgb out = b.albedo->directional(b.wo.z, b.alpha).of(b.specular) * b.compensation;
     const Rgb average = b.albedo->average(b.alpha).of(b.specular) * b.compensation;
     const auto share = [](double o, double a) {
-      return a < 1 ? std::fmax(0, 1 - o) / (1 - a) : 0.0;
+      return a < 1 ? larger(0, 1 - o) / (1 - a) : 0.0;
     };
     b.coat_out = {share(out.r, average.r), share(out.g, average.g), share(out.b, average.b)};
     const double coat = mean(out);
-    const double base = mean(b.diffuse) * std::fmax(0, 1 - coat);
+    const double base = mean(b.diffuse) * larger(0, 1 - coat);
     b.lobe_share = base > 0 ? std::clamp(coat / (coat + base), 0.1, 0.9) : 1;
   }
   if (b.kind == BsdfKind::phong) {

@@ -40,7 +40,7 @@ struct DielectricFresnel {
   const double t0 = eta2 - k2 - sin2;
   const double a2_plus_b2 = std::sqrt(t0 * t0 + 4 * eta2 * k2);
   const double t1 = a2_plus_b2 + cos2;
-  const double a = std::sqrt(std::fmax(0, 0.5 * (a2_plus_b2 + t0)));
+  const double a = std::sqrt(larger(0, 0.5 * (a2_plus_b2 + t0)));
   const double t2 = 2 * a * cos_i;
   const double perpendicular = (t1 - t2) / (t1 + t2);
   const double t3 = cos2 * a2_plus_b2 + sin2 * sin2;

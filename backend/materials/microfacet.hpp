@@ -41,11 +41,11 @@ using ir::specular_alpha;
 // A facet normal seen from wo (wo.z > 0), with density pdf_ggx_normal.
 [[nodiscard]] inline Vector3 sample_ggx_normal(const Vector3& wo, double alpha, Sample2 u) {
   const Vector3 stretched = normalized(Vector3{wo.x * alpha, wo.y * alpha, wo.z}).vector();
-  const SinCos phi = sin_cos(2 * pi * u.u);
+  const SinCos phi = sin_cos_of_turns(u.u);
   const double z = (1 - u.v) * (1 + stretched.z) - stretched.z;
-  const double r = std::sqrt(std::fmax(0, 1 - z * z));
+  const double r = std::sqrt(larger(0, 1 - z * z));
   const Vector3 h{r * phi.cos + stretched.x, r * phi.sin + stretched.y, z + stretched.z};
-  return normalized(Vector3{h.x * alpha, h.y * alpha, std::fmax(0, h.z)}).vector();
+  return normalized(Vector3{h.x * alpha, h.y * alpha, larger(0, h.z)}).vector();
 }
 [[nodiscard]] inline double pdf_ggx_normal(const Vector3& wo, const Vector3& m, double alpha) {
   const double facing = dot(wo, m);

@@ -51,7 +51,7 @@ UnitVector3 valid_normal(const UnitVector3& shading, const UnitVector3& geometri
   const Vector3 mirrored = reflected(to_viewer, shading);
   // Cycles' height of the lifted direction: 0.01, or less where the viewer itself is that low.
   constexpr double lift = 0.01;
-  const double lowest = std::fmin(0.9 * dot(to_viewer, geometric), lift);
+  const double lowest = smaller(0.9 * dot(to_viewer, geometric), lift);
   const double height = dot(mirrored, geometric);
   if (height >= lowest && dot(to_viewer, shading) > 0) return shading;
   const UnitVector3 lifted = normalized(mirrored + geometric.vector() * (lowest - height));
@@ -70,12 +70,12 @@ void set_frame(Bsdf& b, const RenderScene& scene, const Hit& hit, const Vector3&
   b.frame = frame_about(shading);
   b.wo = b.frame.local_of(to_viewer);
   // Grazing views, by rounding: a direction in the surface itself has no mirror image.
-  b.wo.z = std::fmax(b.wo.z, unit_roundoff);
+  b.wo.z = larger(b.wo.z, unit_roundoff);
 }
 
 void set_roughness(Bsdf& b, double roughness, BsdfKind smooth, BsdfKind rough) {
   const double alpha = roughness * roughness;
-  b.alpha = alpha < specular_alpha ? 0 : std::fmin(alpha, 1);
+  b.alpha = alpha < specular_alpha ? 0 : smaller(alpha, 1);
   b.kind = b.alpha == 0 ? smooth : rough;
 }
 

@@ -2,18 +2,24 @@
 // outward by whoever computes them (`outward`).
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "backend/math/vec.hpp"
 
 namespace scenec::backend {
 
+// The neighbours of x, as std::nextafter (a call into libm) gives them.
 [[nodiscard]] inline double next_up(double x) {
-  return std::nextafter(x, std::numeric_limits<double>::infinity());
+  if (!(x < std::numeric_limits<double>::infinity())) return x;  // infinity, NaN
+  if (x == 0) return std::numeric_limits<double>::denorm_min();
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  return std::bit_cast<double>(x > 0 ? bits + 1 : bits - 1);
 }
 [[nodiscard]] inline double next_down(double x) {
-  return std::nextafter(x, -std::numeric_limits<double>::infinity());
+  return -next_up(-x);
 }
 
 struct Bounds3 {

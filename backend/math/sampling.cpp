@@ -19,7 +19,7 @@ double turn_of(double y, double x) {
 // cos theta = 1 - k, with sin theta from k itself so that small angles keep their digits.
 UnitVector3 direction_of(double k, double turn) {
   const double sin_theta = positive_root(k * (2 - k));
-  const SinCos phi = sin_cos(2 * pi * turn);
+  const SinCos phi = sin_cos_of_turns(turn);
   return UnitVector3::assume_unit({sin_theta * phi.cos, sin_theta * phi.sin, 1 - k});
 }
 
@@ -30,18 +30,6 @@ double one_minus_z(const UnitVector3& w) {
 }
 
 }  // namespace
-
-Sample2 sample_concentric_disk(Sample2 s) {
-  const double a = 2 * s.u - 1;
-  const double b = 2 * s.v - 1;
-  if (a == 0 && b == 0) return {0, 0};
-  if (std::fabs(a) > std::fabs(b)) {
-    const SinCos phi = sin_cos(pi / 4 * (b / a));
-    return {a * phi.cos, a * phi.sin};
-  }
-  const SinCos phi = sin_cos(pi / 4 * (a / b));
-  return {b * phi.sin, b * phi.cos};
-}
 
 Sample2 invert_concentric_disk(Sample2 point) {
   const double x = point.u;
@@ -58,11 +46,6 @@ Sample2 invert_concentric_disk(Sample2 point) {
     a = b * (atan2(x, y * std::copysign(1.0, y)) * std::copysign(1.0, y) / (pi / 4));
   }
   return {0.5 * (a + 1), 0.5 * (b + 1)};
-}
-
-UnitVector3 sample_cosine_hemisphere(Sample2 s) {
-  const Sample2 d = sample_concentric_disk(s);
-  return UnitVector3::assume_unit({d.u, d.v, positive_root(1 - d.u * d.u - d.v * d.v)});
 }
 
 Sample2 invert_cosine_hemisphere(const UnitVector3& w) {
@@ -97,12 +80,6 @@ double pdf_uniform_cone(double sin_squared_max) {
 
 Sample2 invert_uniform_cone(const UnitVector3& w, double sin_squared_max) {
   return {one_minus_z(w) / one_minus_cos(sin_squared_max), turn_of(w.y(), w.x())};
-}
-
-Sample2 sample_uniform_triangle(Sample2 s) {
-  // Heitz 2019: the square folded along its diagonal, without a square root.
-  if (s.v > s.u) return {0.5 * s.u, s.v - 0.5 * s.u};
-  return {s.u - 0.5 * s.v, 0.5 * s.v};
 }
 
 }  // namespace scenec::backend

@@ -10,6 +10,9 @@
 // Proof:      tests/unit/backend/math/sampling_test.cpp.
 #pragma once
 
+#include <cmath>
+
+#include "backend/math/turn.hpp"
 #include "backend/math/vec.hpp"
 #include "base/elementary.hpp"
 
@@ -21,14 +24,28 @@ struct Sample2 {
 };
 
 // The unit disk (x, y), area-preserving.
-[[nodiscard]] Sample2 sample_concentric_disk(Sample2 s);
+[[nodiscard]] inline Sample2 sample_concentric_disk(Sample2 s) {
+  const double a = 2 * s.u - 1;
+  const double b = 2 * s.v - 1;
+  const bool wide = std::fabs(a) > std::fabs(b);
+  const double radius = wide ? a : b;
+  // The middle: any angle will do.
+  const double slope = (wide ? b : a) / (radius == 0 ? 1 : radius);
+  const double along = radius * cos_within_eighth(pi / 4 * slope);
+  const double across = radius * sin_within_eighth(pi / 4 * slope);
+  return wide ? Sample2{along, across} : Sample2{across, along};
+}
 [[nodiscard]] constexpr double pdf_concentric_disk() {
   return 1 / pi;
 }
 [[nodiscard]] Sample2 invert_concentric_disk(Sample2 point);
 
 // Directions about +z with density cos / pi.
-[[nodiscard]] UnitVector3 sample_cosine_hemisphere(Sample2 s);
+[[nodiscard]] inline UnitVector3 sample_cosine_hemisphere(Sample2 s) {
+  const Sample2 d = sample_concentric_disk(s);
+  const double z2 = 1 - d.u * d.u - d.v * d.v;
+  return UnitVector3::assume_unit({d.u, d.v, std::sqrt(z2 > 0 ? z2 : 0.0)});
+}
 [[nodiscard]] constexpr double pdf_cosine_hemisphere(double cos_theta) {
   return cos_theta > 0 ? cos_theta / pi : 0;
 }
@@ -56,7 +73,11 @@ struct Sample2 {
 [[nodiscard]] Sample2 invert_uniform_cone(const UnitVector3& w, double sin_squared_max);
 
 // Barycentric weights (b1, b2) of a triangle's second and third vertex, uniform in area.
-[[nodiscard]] Sample2 sample_uniform_triangle(Sample2 s);
+[[nodiscard]] inline Sample2 sample_uniform_triangle(Sample2 s) {
+  // Heitz 2019: the square folded along its diagonal, without a square root.
+  if (s.v > s.u) return {0.5 * s.u, s.v - 0.5 * s.u};
+  return {s.u - 0.5 * s.v, 0.5 * s.v};
+}
 [[nodiscard]] constexpr double pdf_uniform_triangle(double area) {
   return 1 / area;
 }

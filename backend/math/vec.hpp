@@ -122,8 +122,15 @@ constexpr Normal3 operator-(const Normal3& a) {
 [[nodiscard]] inline Vector3 abs(const Vector3& a) {
   return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)};
 }
+// The larger of two numbers; with a NaN, the second. std::fmax is a call into libm.
+[[nodiscard]] constexpr double larger(double a, double b) {
+  return a > b ? a : b;
+}
+[[nodiscard]] constexpr double smaller(double a, double b) {
+  return a < b ? a : b;
+}
 [[nodiscard]] inline double max_abs(const Vector3& a) {
-  return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z)));
+  return larger(std::fabs(a.x), larger(std::fabs(a.y), std::fabs(a.z)));
 }
 [[nodiscard]] constexpr double component(const Vector3& a, int axis) {
   return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
