@@ -47,6 +47,8 @@ std::uint32_t RenderScene::emitter_of(const Hit& hit) const {
 RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool, const BuildOptions& options) {
   RenderScenePtr scene(new RenderScene(prepared));
   if (scene->facts.any_facets()) scene->ggx_albedo.emplace();
+  scene->materials = prepare_materials(*scene->scene, image_facts(*scene),
+                                       scene->ggx_albedo ? &*scene->ggx_albedo : nullptr);
   add_items(prepared, *scene, pool, options);
   add_lights(prepared, *scene);
   scene->accel.build(pool, options.target);

@@ -24,6 +24,9 @@ namespace scenec::backend {
 [[nodiscard]] TriangleMesh mesh_of(const ir::Triangle& shape);
 [[nodiscard]] Revolve revolve_of(const ir::Revolve& shape);
 
+// What the images of a scene show to those who fold constants.
+[[nodiscard]] ir::ImageFacts image_facts(const RenderScene& scene);
+
 // Adds every item of the world (numbers from 0) and of the protos, and fills `scene.items`.
 void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& pool,
                const BuildOptions& options);

@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "backend/backend.hpp"
-#include "backend/render_scene.hpp"
+#include "backend/build.hpp"
 
 namespace scenec::backend {
 namespace {
@@ -25,11 +25,15 @@ bool is_opaque(const DecodedImage& image) {
 
 }  // namespace
 
-ir::EffectReport find_effects(const RenderScene& scene, const ir::RenderSettings& settings) {
+ir::ImageFacts image_facts(const RenderScene& scene) {
   ir::ImageFacts facts(scene.images.size());
   for (std::size_t i = 0; i < facts.size(); ++i)
     if (scene.images[i]) facts[i].opaque = is_opaque(*scene.images[i]);
-  return ir::find_effects(*scene.scene, settings, facts);
+  return facts;
+}
+
+ir::EffectReport find_effects(const RenderScene& scene, const ir::RenderSettings& settings) {
+  return ir::find_effects(*scene.scene, settings, image_facts(scene));
 }
 
 }  // namespace scenec::backend

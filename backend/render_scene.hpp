@@ -9,7 +9,7 @@
 
 #include "backend/accel/scene_accel.hpp"
 #include "backend/lights/light_table.hpp"
-#include "backend/materials/ggx_albedo.hpp"
+#include "backend/materials/prepared_material.hpp"
 #include "backend/prepared_scene.hpp"
 #include "backend/scene_facts.hpp"
 #include "backend/textures/texture.hpp"
@@ -35,6 +35,7 @@ struct RenderScene {
   MaterialFacts facts;
   std::vector<std::shared_ptr<const TriangleMesh>> meshes;  // by Id<ir::Mesh>, as they are traced
   std::optional<GgxAlbedo> ggx_albedo;                      // only where a material needs it
+  std::vector<PreparedMaterial> materials;                  // by MaterialId
   SceneAccel accel;
   std::vector<RenderItem> items;
   LightTable lights;

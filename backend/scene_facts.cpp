@@ -5,7 +5,7 @@ namespace scenec::backend {
 MaterialFacts::MaterialFacts(const ir::Scene& scene) {
   facts_.resize(scene.materials.size());
   for (std::uint32_t i = 0; i < facts_.size(); ++i) {
-    find(scene, ir::MaterialId(i));
+    any_transparent_ = find(scene, ir::MaterialId(i)).transparent || any_transparent_;
     const ir::MaterialKind& kind = scene.materials[ir::MaterialId(i)].kind;
     any_facets_ = any_facets_ || std::holds_alternative<ir::Ggx>(kind) ||
                   std::holds_alternative<ir::Conductor>(kind);

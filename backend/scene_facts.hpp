@@ -20,6 +20,8 @@ class MaterialFacts {
     return facts_[id.value()].textured_emission;
   }
   [[nodiscard]] bool two_sided(ir::MaterialId id) const { return facts_[id.value()].two_sided; }
+  // Opacity may be below 1 somewhere in the scene.
+  [[nodiscard]] bool any_transparent() const { return any_transparent_; }
   // Any material that needs the GGX tables.
   [[nodiscard]] bool any_facets() const { return any_facets_; }
 
@@ -35,6 +37,7 @@ class MaterialFacts {
 
   std::vector<Facts> facts_;
   bool any_facets_ = false;
+  bool any_transparent_ = false;
 };
 
 }  // namespace scenec::backend

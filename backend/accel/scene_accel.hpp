@@ -99,8 +99,9 @@ class SceneAccel {
   // Once, after all items. Hits do not depend on the target.
   void build(ThreadPool& pool, Target target = best_target());
 
-  // The closest hit in the ray's closed interval.
-  [[nodiscard]] bool intersect(const Ray& ray, Hit& hit, const HitFilter& filter = {}) const;
+  // The closest hit in the ray's closed interval. The filter sees hits in full detail.
+  [[nodiscard]] bool intersect(const Ray& ray, Hit& hit, const HitFilter& filter = {},
+                               HitDetail detail = HitDetail::texture) const;
   // The same, without the surface; nothing is filtered.
   [[nodiscard]] bool find(const Ray& ray, FoundHit& hit) const;
   // Whether anything is hit in it.

@@ -75,13 +75,14 @@ struct ItemPath {
 // Kinds that have a kernel of their own: all but meshes and instances.
 [[nodiscard]] bool intersect_shape(const SceneAccel::Data& world, const PlacedItem& item,
                                    const Ray& ray, ShapeHit& out);
-// What a query found, with the surface there.
-[[nodiscard]] Hit complete(const ItemPath& path, const Ray& world_ray, const ShapeHit& found);
+// What a query found, with as much of the surface there as `detail` asks for.
+void complete(const ItemPath& path, const Ray& world_ray, const ShapeHit& found, HitDetail detail,
+              Hit& hit);
 
 // The queries, compiled for one instruction set.
 enum class Walk : std::uint8_t { tree, brute_force };
 struct QueryKernels {
-  bool (*intersect)(const SceneAccel::Data&, const Ray&, const HitFilter&, Walk, Hit&);
+  bool (*intersect)(const SceneAccel::Data&, const Ray&, const HitFilter&, Walk, HitDetail, Hit&);
   bool (*find)(const SceneAccel::Data&, const Ray&, const HitFilter&, Walk, FoundHit&);
   bool (*occluded)(const SceneAccel::Data&, const Ray&, const HitFilter&, Walk);
 };

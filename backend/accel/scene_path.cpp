@@ -6,12 +6,13 @@ namespace {
 
 using World = SceneAccel::Data;
 
-Surface object_surface(const Placement& place, const Ray& ray, const ShapeHit& hit) {
+Surface object_surface(const Placement& place, const Ray& ray, const ShapeHit& hit,
+                       HitDetail detail) {
   const World& w = *place.world;
   const std::uint32_t i = place.item->index;
   switch (place.item->kind) {
     case ShapeKind::sphere:
-      return surface(w.spheres[i], ray, hit);
+      return surface(w.spheres[i], ray, hit, detail);
     case ShapeKind::plane:
       return surface(w.planes[i], ray, hit);
     case ShapeKind::triangle:
@@ -19,7 +20,7 @@ Surface object_surface(const Placement& place, const Ray& ray, const ShapeHit& h
     case ShapeKind::quad:
       return surface(w.quads[i], ray, hit);
     case ShapeKind::disk:
-      return surface(w.disks[i], ray, hit);
+      return surface(w.disks[i], ray, hit, detail);
     case ShapeKind::box:
       return surface(w.boxes[i], ray, hit);
     case ShapeKind::cylinder:
@@ -35,13 +36,14 @@ Surface object_surface(const Placement& place, const Ray& ray, const ShapeHit& h
 }
 
 // One placement outward: from its object space to the space it is placed in.
-void to_outer(const Placement& place, Surface& s) {
+void to_outer(const Placement& place, Surface& s, HitDetail detail) {
   if (place.item->transform == SceneAccel::identity) return;
   const Transform& t = place.world->transforms[place.item->transform];
   s.error = t.apply_abs(s.error) + t.round_trip_error(s.point);
   s.point = t.apply(s.point);
   s.geometric_normal = t.apply(s.geometric_normal);
   s.shading_normal = t.apply(s.shading_normal);
+  if (detail == HitDetail::place) return;
   s.dp_du = t.apply(s.dp_du);
   s.dp_dv = t.apply(s.dp_dv);
 }
@@ -79,13 +81,13 @@ bool intersect_shape(const World& w, const PlacedItem& item, const Ray& ray, Sha
   return false;
 }
 
-Hit complete(const ItemPath& path, const Ray& world_ray, const ShapeHit& found) {
+void complete(const ItemPath& path, const Ray& world_ray, const ShapeHit& found, HitDetail detail,
+              Hit& hit) {
   Ray ray = world_ray;
   for (std::uint32_t i = 0; i < path.size; ++i) ray = to_object(path.steps[i], ray);
   const Placement& leaf = path.leaf();
-  Surface s = object_surface(leaf, ray, found);
-  for (std::uint32_t i = path.size; i-- > 0;) to_outer(path.steps[i], s);
-  Hit hit;
+  Surface s = object_surface(leaf, ray, found, detail);
+  for (std::uint32_t i = path.size; i-- > 0;) to_outer(path.steps[i], s, detail);
   hit.t = found.t;
   hit.item = leaf.item->item;
   hit.primitive = found.part;
@@ -99,11 +101,11 @@ Hit complete(const ItemPath& path, const Ray& world_ray, const ShapeHit& found) 
   hit.error = s.error;
   hit.geometric_normal = normalized(s.geometric_normal);
   hit.shading_normal = normalized(s.shading_normal, hit.geometric_normal);
+  if (detail == HitDetail::place) return;
   hit.u = s.u;
   hit.v = s.v;
   hit.dp_du = s.dp_du;
   hit.dp_dv = s.dp_dv;
-  return hit;
 }
 
 }  // namespace scenec::backend

@@ -186,7 +186,9 @@ class Query {
   [[nodiscard]] bool passes(const PlacedItem& item, const ShapeHit& hit) const {
     if constexpr (filtering == Filtering::none) return true;
     if (item.option == ItemOption::plain) return true;
-    return filter_.keeps(complete(path_, world_ray_, hit));
+    Hit whole;
+    complete(path_, world_ray_, hit, HitDetail::texture, whole);
+    return filter_.keeps(whole);
   }
 
   bool accept(const ShapeHit& hit) {
@@ -224,9 +226,9 @@ HWY_INLINE bool run(const World& world, const Ray& ray, const HitFilter& filter,
 }
 
 bool intersect_world(const World& world, const Ray& ray, const HitFilter& filter, Walk walk,
-                     Hit& hit) {
+                     HitDetail detail, Hit& hit) {
   return run<Want::closest>(world, ray, filter, walk, [&](const auto& q) HWY_ATTR {
-    hit = complete(q.path(), ray, q.best());
+    complete(q.path(), ray, q.best(), detail, hit);
   });
 }
 
@@ -272,8 +274,9 @@ const QueryKernels& query_kernels(Target target) {
   }
 }
 
-bool SceneAccel::intersect(const Ray& ray, Hit& hit, const HitFilter& filter) const {
-  return kernels_->intersect(*data_, ray, filter, Walk::tree, hit);
+bool SceneAccel::intersect(const Ray& ray, Hit& hit, const HitFilter& filter,
+                           HitDetail detail) const {
+  return kernels_->intersect(*data_, ray, filter, Walk::tree, detail, hit);
 }
 
 bool SceneAccel::find(const Ray& ray, FoundHit& hit) const {
@@ -281,7 +284,7 @@ bool SceneAccel::find(const Ray& ray, FoundHit& hit) const {
 }
 
 bool SceneAccel::intersect_brute_force(const Ray& ray, Hit& hit, const HitFilter& filter) const {
-  return kernels_->intersect(*data_, ray, filter, Walk::brute_force, hit);
+  return kernels_->intersect(*data_, ray, filter, Walk::brute_force, HitDetail::texture, hit);
 }
 
 bool SceneAccel::occluded(const Ray& ray, const HitFilter& filter) const {

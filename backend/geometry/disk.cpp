@@ -28,7 +28,8 @@ Bounds3 bounds(const Disk& disk) {
   return outward({disk.center - e, disk.center + e});
 }
 
-Surface surface(const Disk& disk, const Ray& ray, const ShapeHit& hit) {
+Surface surface(const Disk& disk, const Ray& ray, const ShapeHit& hit,
+                HitDetail detail) {
   Vector3 p = (ray.origin - disk.center) + hit.t * ray.direction;
   p = p - dot(p, disk.normal) * disk.normal.vector();
   Surface s;
@@ -36,6 +37,7 @@ Surface surface(const Disk& disk, const Ray& ray, const ShapeHit& hit) {
   s.error =
       gamma(8) * (abs(p) + disk.radius * abs(disk.normal)) + gamma(2) * abs(as_vector(s.point));
   s.geometric_normal = s.shading_normal = as_normal(disk.normal);
+  if (detail == HitDetail::place) return s;
   const Frame frame = frame_about(disk.normal);
   const Vector3 q = frame.local_of(p);
   const double rho = std::sqrt(q.x * q.x + q.y * q.y);

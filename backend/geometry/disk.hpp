@@ -21,6 +21,7 @@ struct Disk {
 [[nodiscard]] bool intersect(const Disk& disk, const Ray& ray, ShapeHit& out);
 [[nodiscard]] Bounds3 bounds(const Disk& disk);
 // u the angle about the normal / 2 pi, v from the rim (0) to the centre (1).
-[[nodiscard]] Surface surface(const Disk& disk, const Ray& ray, const ShapeHit& hit);
+[[nodiscard]] Surface surface(const Disk& disk, const Ray& ray, const ShapeHit& hit,
+                              HitDetail detail = HitDetail::texture);
 
 }  // namespace scenec::backend

@@ -40,6 +40,9 @@ struct ShapeHit {
   double b = 0;
 };
 
+// How much of a surface is wanted: texture coordinates cost angles, which light alone needs none of.
+enum class HitDetail : std::uint8_t { place, texture };
+
 // The surface at a hit, in the shape's own space. Normals point to the outer side (winding, or
 // dp_du x dp_dv), whatever side the ray came from, and need not be unit.
 struct Surface {
@@ -47,6 +50,7 @@ struct Surface {
   Vector3 error;  // bound on the distance of `point` from the surface, an axis at a time
   Normal3 geometric_normal;
   Normal3 shading_normal;
+  // Of no meaning unless HitDetail::texture is asked for.
   double u = 0;
   double v = 0;
   Vector3 dp_du;  // zero where u has no direction (a pole)
@@ -90,17 +94,43 @@ concept ShapeKernel =
 // other roundings, and an accelerator's transforms add theirs. Four times covers both with room.
 inline constexpr double spawn_safety = 4;
 
+// The sum rounded away from `from`, so that rounding cannot undo a tiny offset.
+[[nodiscard]] inline double add_away(double from, double offset) {
+  const double sum = from + offset;
+  return offset > 0 ? next_up(sum) : offset < 0 ? next_down(sum) : sum;
+}
+
 // The nearest representable origin off the surface at `point`, on the side `direction` goes to:
 // moved along the normal far enough that the error box of the point lies behind it.
-[[nodiscard]] Point3 offset_origin(const Point3& point, const Vector3& error,
-                                   const UnitVector3& normal, const Vector3& direction);
+[[nodiscard]] inline Point3 offset_origin(const Point3& point, const Vector3& error,
+                                          const UnitVector3& normal, const Vector3& direction) {
+  const double reach = spawn_safety * dot(abs(normal), error);
+  const double signed_reach = dot(direction, normal) < 0 ? -reach : reach;
+  const Vector3 offset = signed_reach * normal.vector();
+  return {add_away(point.x, offset.x), add_away(point.y, offset.y), add_away(point.z, offset.z)};
+}
 
 // A ray leaving a hit.
-[[nodiscard]] Ray spawn_ray(const Hit& hit, const Vector3& direction);
+[[nodiscard]] inline Ray spawn_ray(const Hit& hit, const Vector3& direction) {
+  return {offset_origin(hit.point, hit.error, hit.geometric_normal, direction), direction};
+}
 // The open segment from a hit to a point (a point light): t_max is just below 1.
-[[nodiscard]] Ray spawn_segment(const Hit& hit, const Point3& target);
+[[nodiscard]] inline Ray spawn_segment(const Hit& hit, const Point3& target) {
+  constexpr double before_one = 1 - 0x1p-53;
+  const Point3 origin =
+      offset_origin(hit.point, hit.error, hit.geometric_normal, target - hit.point);
+  return {origin, target - origin, 0, before_one};
+}
 // The segment from a hit to a sampled point of another surface: both ends leave their surface.
-[[nodiscard]] Ray spawn_segment(const Hit& hit, const Point3& target, const Vector3& target_error,
-                                const UnitVector3& target_normal);
+[[nodiscard]] inline Ray spawn_segment(const Hit& hit, const Point3& target,
+                                       const Vector3& target_error,
+                                       const UnitVector3& target_normal) {
+  const Vector3 way = hit.point - target;
+  // The target's kernel will see the segment from afar: its roundings are those of coordinates
+  // relative to the origin, as long as the way (numerics anchors, finding 1).
+  const double seen = length(way) * gamma(8);
+  const Vector3 error = target_error + Vector3{seen, seen, seen};
+  return spawn_segment(hit, offset_origin(target, error, target_normal, way));
+}
 
 }  // namespace scenec::backend

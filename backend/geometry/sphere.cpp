@@ -27,7 +27,8 @@ Bounds3 bounds(const Sphere& sphere) {
   return outward({{c.x - r, c.y - r, c.z - r}, {c.x + r, c.y + r, c.z + r}}, {slack, slack, slack});
 }
 
-Surface surface(const Sphere& sphere, const Ray& ray, const ShapeHit& hit) {
+Surface surface(const Sphere& sphere, const Ray& ray, const ShapeHit& hit,
+                HitDetail detail) {
   const double r = sphere.radius;
   const Vector3 raw = (ray.origin - sphere.center) + hit.t * ray.direction;
   const double raw_length = length(raw);
@@ -40,6 +41,7 @@ Surface surface(const Sphere& sphere, const Ray& ray, const ShapeHit& hit) {
   // more, and subtracting it again once.
   s.error = gamma(8) * abs(p) + gamma(2) * abs(as_vector(s.point));
   s.geometric_normal = s.shading_normal = as_normal(p);
+  if (detail == HitDetail::place) return s;
   const double rho = std::sqrt(p.x * p.x + p.z * p.z);
   s.u = turn_fraction(-p.z, p.x);
   s.v = 0.5 + atan2(p.y, rho) / pi;

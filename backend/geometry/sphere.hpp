@@ -23,6 +23,7 @@ struct Sphere {
 [[nodiscard]] bool intersect(const Sphere& sphere, const Ray& ray, ShapeHit& out);
 [[nodiscard]] Bounds3 bounds(const Sphere& sphere);
 // u counter-clockwise about +y from +x, v from south (0) to north (1).
-[[nodiscard]] Surface surface(const Sphere& sphere, const Ray& ray, const ShapeHit& hit);
+[[nodiscard]] Surface surface(const Sphere& sphere, const Ray& ray, const ShapeHit& hit,
+                              HitDetail detail = HitDetail::texture);
 
 }  // namespace scenec::backend

@@ -1,67 +1,92 @@
+// The list of compiled kernels: each stands in a file of its own in kernels/.
 #include "backend/integrators/kernel.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "backend/integrators/tile-inl.hpp"
 
 namespace scenec::backend {
 
+using TileFunction = bool (*)(const TileJob&, Film&, const Tile&, const SampleRange&, KernelWorker&,
+                              const std::stop_token&);
+
+#define SCENEC_KERNEL(method, name)                                          \
+  extern template bool render_tile<ir::Method::method, kernel_masks::name>(  \
+      const TileJob&, Film&, const Tile&, const SampleRange&, KernelWorker&, \
+      const std::stop_token&);
+#include "backend/integrators/kernels.def"
+#undef SCENEC_KERNEL
+
+namespace {
+
+struct Kernel {
+  KernelInfo info;
+  TileFunction run;
+};
+
+constexpr std::array kernels{
+#define SCENEC_KERNEL(method, name)                       \
+  Kernel{{ir::Method::method, #name, kernel_masks::name}, \
+         render_tile<ir::Method::method, kernel_masks::name>},
+#include "backend/integrators/kernels.def"
+#undef SCENEC_KERNEL
+};
+
+const Kernel& choose(ir::Method method, EffectMask effects, KernelChoice choice) {
+  const Kernel* chosen = nullptr;
+  for (const Kernel& kernel : kernels) {
+    if (kernel.info.method != method) continue;
+    const bool holds = (effects & ~kernel.info.mask) == 0;
+    if (!holds) continue;
+    chosen = &kernel;
+    if (choice == KernelChoice::smallest) break;
+  }
+  return *chosen;  // the last of each method has all effects
+}
+
+bool layers_need(const ir::RenderSettings& settings, bool (*wants)(ir::Aov)) {
+  return std::any_of(settings.aovs.begin(), settings.aovs.end(), wants);
+}
+
+TraceJob trace_job(const RenderScene& scene, const ir::RenderSettings& settings,
+                   EffectMask effects) {
+  const bool on_surface =
+      (effects & mask_of({ir::Effect::textures, ir::Effect::normal_maps})) != 0 ||
+      layers_need(settings, [](ir::Aov aov) { return aov == ir::Aov::uv; });
+  const bool first = layers_need(settings, [](ir::Aov aov) {
+    return aov != ir::Aov::variance && aov != ir::Aov::samples && aov != ir::Aov::trust;
+  });
+  return {scene, settings, effects, on_surface ? HitDetail::texture : HitDetail::place, first};
+}
+
+}  // namespace
+
+EffectMask mask_of(const ir::EffectSet& effects) {
+  EffectMask mask = 0;
+  for (std::size_t i = 0; i < ir::effect_count; ++i)
+    if (effects.has(static_cast<ir::Effect>(i))) mask |= bit_of(static_cast<ir::Effect>(i));
+  return mask;
+}
+
+ir::EffectSet set_of(EffectMask mask) {
+  ir::EffectSet set;
+  for (std::size_t i = 0; i < ir::effect_count; ++i)
+    if ((mask & bit_of(static_cast<ir::Effect>(i))) != 0) set.add(static_cast<ir::Effect>(i));
+  return set;
+}
+
+const KernelInfo& kernel_for(ir::Method method, const ir::EffectSet& effects, KernelChoice choice) {
+  return choose(method, mask_of(effects), choice).info;
+}
+
 TileKernel::TileKernel(const RenderScene& scene, const ir::RenderSettings& settings,
-                       const ir::EffectSet& effects)
-    : scene_(scene),
-      settings_(settings),
-      effects_(effects),
-      camera_(scene.scene->cameras[settings.camera], settings.size,
-              effects.has(ir::Effect::depth_of_field) ? CameraSampler::Lens::simulated
-                                                      : CameraSampler::Lens::left_out),
-      filter_(settings.filter) {}
-
-bool TileKernel::render(Film& film, const Tile& tile, const SampleRange& samples,
-                        KernelWorker& worker, const std::stop_token& stop) const {
-  const Tracer tracer(scene_, settings_, effects_, worker.rays);
-  for (std::size_t y = tile.y0; y < tile.y1; ++y) {
-    const std::int64_t py = film.region().y0 + static_cast<std::int64_t>(y);
-    for (std::size_t x = tile.x0; x < tile.x1; ++x) {
-      const std::int64_t px = film.region().x0 + static_cast<std::int64_t>(x);
-      for (std::int64_t number = samples.first; number < samples.end; ++number) {
-        if (stop.stop_requested()) return false;
-        film.add(x, y, sample(tracer, px, py, number, worker));
-      }
-    }
-  }
-  return true;
-}
-
-FilmSample TileKernel::sample(const Tracer& tracer, std::int64_t px, std::int64_t py,
-                              std::int64_t number, KernelWorker& worker) const {
-  const auto pixel = static_cast<std::uint64_t>(py * settings_.size.width + px);
-  const Sampler sampler(settings_.sampler, static_cast<std::uint64_t>(settings_.seed), pixel,
-                        static_cast<std::uint64_t>(number));
-  FilmSample out;
-  // film .course: the lower left corner.
-  double film_x = static_cast<double>(px);
-  double film_y = static_cast<double>(py + 1);
-  if (settings_.film == ir::FilmKind::standard) {
-    const FilterSample offset = filter_.sample(sampler.get_2d(dimension::pixel_filter));
-    film_x = static_cast<double>(px) + 0.5 + offset.dx;
-    film_y = static_cast<double>(py) + 0.5 + offset.dy;
-    out.weight = offset.weight;
-  }
-  const Sample2 lens = camera_.has_lens() ? sampler.get_2d(dimension::lens) : Sample2{};
-  const TracedSample traced = trace(tracer, camera_.ray(film_x, film_y, lens), sampler, worker);
-  out.radiance = traced.radiance;
-  out.covered = traced.covered;
-  out.first = traced.first;
-  return out;
-}
-
-TracedSample TileKernel::trace(const Tracer& tracer, const Ray& ray, const Sampler& sampler,
-                               KernelWorker& worker) const {
-  switch (settings_.method) {
-    case ir::Method::path:
-      return trace_path(tracer, ray, sampler);
-    case ir::Method::whitted:
-      return trace_whitted(tracer, ray, sampler, worker.branches);
-    case ir::Method::phong:
-      return trace_phong(tracer, ray, sampler);
-  }
-  return {};
-}
+                       const ir::EffectSet& effects, KernelChoice choice)
+    : job_{trace_job(scene, settings, mask_of(effects)),
+           CameraSampler(scene.scene->cameras[settings.camera], settings.size,
+                         effects.has(ir::Effect::depth_of_field) ? CameraSampler::Lens::simulated
+                                                                 : CameraSampler::Lens::left_out),
+           FilterSampler(settings.filter)},
+      run_(choose(settings.method, mask_of(effects), choice).run) {}
 
 }  // namespace scenec::backend

@@ -1,5 +1,6 @@
-// The work on one tile of the picture: from pixel and sample number to radiance in the film. A tile
-// belongs to one worker at a time; the numbers depend on scene, settings and effects only.
+// The work on one tile of the picture: from pixel and sample number to radiance in the film, by the
+// kernel that holds the picture's effects and the fewest others. A tile belongs to one worker at a
+// time; the numbers depend on scene, settings and effects only.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include "backend/cameras/camera.hpp"
 #include "backend/film/film.hpp"
 #include "backend/film/filter.hpp"
+#include "backend/integrators/kernel_set.hpp"
 #include "backend/integrators/tracer.hpp"
 
 namespace scenec::backend {
@@ -30,28 +32,31 @@ struct alignas(64) KernelWorker {
   BranchStack branches;
 };
 
+// What the tiles of one picture share.
+struct TileJob {
+  TraceJob trace;
+  CameraSampler camera;
+  FilterSampler filter;
+};
+
 class TileKernel {
  public:
-  // All three must outlive the kernel.
+  // `scene` and `settings` must outlive the kernel. `choice`: which of the compiled kernels runs;
+  // none has an influence on the picture.
   TileKernel(const RenderScene& scene, const ir::RenderSettings& settings,
-             const ir::EffectSet& effects);
+             const ir::EffectSet& effects, KernelChoice choice = KernelChoice::smallest);
 
   // Adds the samples of every pixel to the film. False when a stop request came in between: some
   // pixels then have fewer samples than others.
   [[nodiscard]] bool render(Film& film, const Tile& tile, const SampleRange& samples,
-                            KernelWorker& worker, const std::stop_token& stop) const;
+                            KernelWorker& worker, const std::stop_token& stop) const {
+    return run_(job_, film, tile, samples, worker, stop);
+  }
 
  private:
-  [[nodiscard]] FilmSample sample(const Tracer& tracer, std::int64_t px, std::int64_t py,
-                                  std::int64_t number, KernelWorker& worker) const;
-  [[nodiscard]] TracedSample trace(const Tracer& tracer, const Ray& ray, const Sampler& sampler,
-                                   KernelWorker& worker) const;
-
-  const RenderScene& scene_;
-  const ir::RenderSettings& settings_;
-  ir::EffectSet effects_;
-  CameraSampler camera_;
-  FilterSampler filter_;
+  TileJob job_;
+  bool (*run_)(const TileJob&, Film&, const Tile&, const SampleRange&, KernelWorker&,
+               const std::stop_token&);
 };
 
 }  // namespace scenec::backend

@@ -1,11 +1,16 @@
 // What the methods have in common: rays with see-through surfaces, light from chosen lights, light
-// that arrives from infinitely far away, and the body a path is in.
+// that arrives from infinitely far away. Templates on the effects a kernel is compiled with; which
+// of those a picture is simulated with is known when it begins.
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 
 #include "backend/film/film.hpp"
+#include "backend/integrators/kernel_set.hpp"
+#include "backend/integrators/media.hpp"
+#include "backend/materials/matt.hpp"
 #include "backend/materials/resolve.hpp"
 #include "backend/render_scene.hpp"
 #include "backend/samplers/dimension.hpp"
@@ -13,95 +18,178 @@
 
 namespace scenec::backend {
 
-// Counters of one worker.
+// Counters of one worker. `effects`: how often code ran that only this effect calls for.
 struct RayCounters {
   std::uint64_t rays = 0;
-};
+  std::array<std::uint64_t, ir::effect_count> effects{};
+  std::uint64_t forgotten_media = 0;
 
-// The bodies a path is in, innermost last. Outside all of them is air. Beyond eight the outermost
-// is forgotten; where bodies do not lie in each other, the one that is entered is the only one.
-class MediumStack {
- public:
-  void enter(ir::MaterialId material, bool nested) {
-    if (!nested) count_ = 0;
-    if (count_ == bodies_.size()) {
-      for (std::size_t i = 1; i < bodies_.size(); ++i) bodies_[i - 1] = bodies_[i];
-      --count_;
-    }
-    bodies_[count_++] = material;
-  }
-  void leave(ir::MaterialId material) {
-    for (std::size_t i = count_; i-- > 0;) {
-      if (bodies_[i] != material) continue;
-      for (std::size_t j = i + 1; j < count_; ++j) bodies_[j - 1] = bodies_[j];
-      --count_;
-      return;
-    }
-  }
-  [[nodiscard]] bool empty() const { return count_ == 0; }
-  [[nodiscard]] ir::MaterialId innermost() const { return bodies_[count_ - 1]; }
-
- private:
-  std::array<ir::MaterialId, 8> bodies_{};
-  std::size_t count_ = 0;
+  void count(ir::Effect effect) { ++effects[static_cast<std::size_t>(effect)]; }
 };
 
 enum class RayKind : std::uint8_t { camera, scattered, shadow };
 
+// What the tiles of one picture share.
+struct TraceJob {
+  const RenderScene& scene;
+  const ir::RenderSettings& settings;
+  EffectMask effects = 0;  // simulated
+  HitDetail detail = HitDetail::texture;
+  bool wants_first_hit = true;
+};
+
+template <EffectMask compiled>
 class Tracer {
  public:
-  Tracer(const RenderScene& scene, const ir::RenderSettings& settings, const ir::EffectSet& effects,
-         RayCounters& counters)
-      : scene_(scene), settings_(settings), effects_(effects), counters_(counters) {}
+  Tracer(const TraceJob& job, RayCounters& counters)
+      : job_(job),
+        scene_(job.scene),
+        effects_(job.effects & compiled),
+        filters_(scene_.lights.any_invisible() ||
+                 (with<ir::Effect::alpha>() && scene_.facts.any_transparent())),
+        counters_(counters) {}
 
   // What the picture is simulated with.
-  [[nodiscard]] bool with(ir::Effect effect) const { return effects_.has(effect); }
-  [[nodiscard]] const ir::EffectSet& effects() const { return effects_; }
-
+  template <ir::Effect effect>
+  [[nodiscard]] bool with() const {
+    if constexpr ((compiled & bit_of(effect)) == 0) return false;
+    return (effects_ & bit_of(effect)) != 0;
+  }
+  [[nodiscard]] EffectMask effects() const { return effects_; }
+  [[nodiscard]] const TraceJob& job() const { return job_; }
   [[nodiscard]] const RenderScene& scene() const { return scene_; }
-  [[nodiscard]] const ir::RenderSettings& settings() const { return settings_; }
+  [[nodiscard]] const ir::RenderSettings& settings() const { return job_.settings; }
+  void count(ir::Effect effect) const { counters_.count(effect); }
+  void count_forgotten_medium() const { ++counters_.forgotten_media; }
 
   // Surfaces with opacity below 1 let rays through at random; lights that are not visible let the
   // camera's rays and shadow rays through.
   [[nodiscard]] bool intersect(const Ray& ray, RayKind kind, std::uint32_t depth,
-                               const Sampler& sampler, Hit& hit) const;
-  [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t depth, const Sampler& sampler) const;
+                               const Sampler& sampler, Hit& hit) const {
+    ++counters_.rays;
+    if (!filters_) return scene_.accel.intersect(ray, hit, {}, job_.detail);
+    const auto keep = [&](const Hit& candidate) { return keeps(candidate, kind, depth, sampler); };
+    return scene_.accel.intersect(ray, hit, HitFilter(keep), job_.detail);
+  }
+  [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t depth, const Sampler& sampler) const {
+    if (!with<ir::Effect::shadows>()) return false;
+    count(ir::Effect::shadows);
+    ++counters_.rays;
+    if (!filters_) return scene_.accel.occluded(ray);
+    const auto keep = [&](const Hit& candidate) {
+      return keeps(candidate, RayKind::shadow, depth, sampler);
+    };
+    return scene_.accel.occluded(ray, HitFilter(keep));
+  }
+
+  [[nodiscard]] Sample2 texture_place(const Hit& hit) const {
+    return with<ir::Effect::textures>() ? Sample2{hit.u, hit.v} : Sample2{0.5, 0.5};
+  }
 
   // Radiance that a hit gives off to where the ray came from, light shapes included.
-  [[nodiscard]] Rgb emitted(const Hit& hit, const Vector3& to_viewer) const;
+  [[nodiscard]] Rgb emitted(const Hit& hit, const RenderItem& item, ir::MaterialId material,
+                            const Vector3& to_viewer) const {
+    if (item.light != RenderItem::none) {
+      const Emitter& e = scene_.lights.emitters[item.light];
+      return e.two_sided || dot(hit.geometric_normal, to_viewer) > 0 ? e.radiance : Rgb{};
+    }
+    if (!scene_.facts.emissive(material)) return {};
+    return emission_of(scene_, material, texture_place(hit),
+                       dot(hit.geometric_normal, to_viewer) > 0);
+  }
   // What a ray that leaves the scene sees. `camera`: no scattering before.
-  [[nodiscard]] Rgb escaped(const Vector3& direction, bool camera) const;
+  [[nodiscard]] Rgb escaped(const Vector3& direction, bool camera) const {
+    const ir::Color& c = job_.settings.background;
+    if (scene_.lights.environments.empty()) return {c.r, c.g, c.b};
+    if (camera && job_.settings.background_written) return {c.r, c.g, c.b};
+    return scene_.lights.environment_radiance(direction);
+  }
 
   // Light from a sampled point of a light at a surface, occlusion tested; black when there is none.
   // `pdf_weight`(light sample, pdf of the bsdf) weighs it against other ways to find that light.
-  template <class Weight>
-  [[nodiscard]] Rgb direct(const Hit& hit, const Bsdf& bsdf, std::size_t light, std::uint32_t depth,
-                           const Sampler& sampler, const Weight& weight) const {
+  template <class Surface, class Weight>
+  [[nodiscard]] Rgb direct(const Hit& hit, const Surface& surface, std::size_t light,
+                           std::uint32_t depth, const Sampler& sampler,
+                           const Weight& weight) const {
     const std::uint32_t base = dimension::bounce(depth);
-    const auto sample =
-        scene_.lights.sample(light, hit.point, sampler.get_2d(base + dimension::light_point));
-    if (!sample || is_black(sample->radiance) || !gives_light(*sample)) return {};
-    if (!with(ir::Effect::refraction) && dot(sample->wi, bsdf.geometric) < 0) return {};
-    const BsdfValue value = evaluate(bsdf, sample->wi);
+    LightSample sample;
+    if (!scene_.lights.sample(light, hit.point, sampler.get_2d(base + dimension::light_point),
+                              sample) ||
+        is_black(sample.radiance) || !gives_light(sample))
+      return {};
+    if (!with<ir::Effect::refraction>() && dot(sample.wi, surface.geometric) < 0) return {};
+    const BsdfValue value = evaluate(surface, sample.wi);
     if (is_black(value.f_cos)) return {};
-    const Rgb arriving = visible_radiance(hit, *sample, depth, sampler);
+    const Rgb arriving = visible_radiance(hit, sample, depth, sampler);
     if (is_black(arriving)) return {};
-    return value.f_cos * arriving * (weight(*sample, value.pdf) / sample->pdf);
+    return value.f_cos * arriving * (weight(sample, value.pdf) / sample.pdf);
   }
 
  private:
   [[nodiscard]] bool keeps(const Hit& hit, RayKind kind, std::uint32_t depth,
-                           const Sampler& sampler) const;
-  [[nodiscard]] bool gives_light(const LightSample& light) const {
-    if (light.emitter != nullptr) return with(ir::Effect::area_lights);
-    return light.delta || with(ir::Effect::environment);
+                           const Sampler& sampler) const {
+    const RenderItem& item = scene_.items[hit.item];
+    if (item.light != RenderItem::none)
+      return kind == RayKind::scattered || scene_.lights.emitters[item.light].visible;
+    if (!with<ir::Effect::alpha>()) return true;
+    count(ir::Effect::alpha);
+    const double opacity = opacity_of(scene_, scene_.material_of(hit), texture_place(hit));
+    if (opacity >= 1) return true;
+    if (!(opacity > 0)) return false;
+    // Each surface a ray passes takes a number of its own: told apart by what and where it is.
+    const std::uint64_t key = path_key(hit.instances.data(), hit.instance_count, hit.item);
+    const std::uint64_t what = key ^ (static_cast<std::uint64_t>(hit.primitive) << 32) ^
+                               std::bit_cast<std::uint64_t>(hit.t) ^
+                               (kind == RayKind::shadow ? 0x9e3779b97f4a7c15ULL : 0);
+    return sampler.random(dimension::bounce(depth) + dimension::opacity, what) < opacity;
   }
-  [[nodiscard]] Rgb visible_radiance(const Hit& hit, const LightSample& light, std::uint32_t depth,
-                                     const Sampler& sampler) const;
 
+  [[nodiscard]] bool gives_light(const LightSample& light) const {
+    if (light.emitter != nullptr) {
+      if (!with<ir::Effect::area_lights>()) return false;
+      count(ir::Effect::area_lights);
+      return true;
+    }
+    if (light.delta) return true;
+    if (!with<ir::Effect::environment>()) return false;
+    count(ir::Effect::environment);
+    return true;
+  }
+
+  [[nodiscard]] Rgb visible_radiance(const Hit& hit, const LightSample& light, std::uint32_t depth,
+                                     const Sampler& sampler) const {
+    if (light.infinite)
+      return occluded(spawn_ray(hit, light.wi), depth, sampler) ? Rgb{} : light.radiance;
+    const Ray segment =
+        light.emitter != nullptr
+            ? spawn_segment(hit, light.target, light.target_error, light.target_normal)
+            : spawn_segment(hit, light.target);
+    if (occluded(segment, depth, sampler)) return {};
+    if (light.emitter == nullptr || !light.emitter->textured) return light.radiance;
+    return textured_radiance(hit, light);
+  }
+  // The radiance there varies: look at the light's surface itself, past what hides nothing.
+  [[nodiscard]] Rgb textured_radiance(const Hit& hit, const LightSample& light) const {
+    Hit seen;
+    ++counters_.rays;
+    const auto on_emitter = [&](const Hit& candidate) {
+      const std::uint32_t emitter = scene_.emitter_of(candidate);
+      return emitter != RenderItem::none && &scene_.lights.emitters[emitter] == light.emitter;
+    };
+    if (!scene_.accel.intersect(spawn_ray(hit, light.wi), seen, HitFilter(on_emitter))) return {};
+    if (!on_emitter(seen)) return {};
+    const ir::MaterialId material = scene_.material_of(seen);
+    // Where the light itself is see-through, its surface is there with that probability only; the
+    // shadow ray has not been asked, as it ends before the surface.
+    const double opacity =
+        with<ir::Effect::alpha>() ? opacity_of(scene_, material, texture_place(seen)) : 1;
+    return emitted(seen, scene_.items[seen.item], material, -light.wi) * opacity;
+  }
+
+  const TraceJob& job_;
   const RenderScene& scene_;
-  const ir::RenderSettings& settings_;
-  ir::EffectSet effects_;
+  EffectMask effects_;
+  bool filters_;
   RayCounters& counters_;
 };
 
@@ -125,14 +213,21 @@ struct TracedSample {
   FirstHit first;
 };
 
-// The three methods. `ray.direction` is unit.
-[[nodiscard]] TracedSample trace_path(const Tracer& tracer, const Ray& ray, const Sampler& sampler);
-[[nodiscard]] TracedSample trace_whitted(const Tracer& tracer, const Ray& ray,
-                                         const Sampler& sampler, BranchStack& scratch);
-[[nodiscard]] TracedSample trace_phong(const Tracer& tracer, const Ray& ray,
-                                       const Sampler& sampler);
-
 // For the extra layers.
-[[nodiscard]] FirstHit first_hit_of(const Tracer& tracer, const Hit& hit, const Bsdf& bsdf);
+template <class Surface>
+[[nodiscard]] FirstHit first_hit_of(const Hit& hit, const Surface& surface,
+                                    const UnitVector3& normal, ir::MaterialId material) {
+  FirstHit first;
+  first.hit = true;
+  first.albedo = albedo_of(surface);
+  first.normal = normal.vector();
+  first.position = hit.point;
+  first.depth = hit.t;
+  first.u = hit.u;
+  first.v = hit.v;
+  first.item = hit.item;
+  first.material = material.valid() ? material.value() : 0;
+  return first;
+}
 
 }  // namespace scenec::backend

@@ -41,16 +41,6 @@ AreaPoint tube_point(const Emitter& e, Sample2 u) {
 
 AreaPoint area_point(const Emitter& e, Sample2 u) {
   switch (e.shape) {
-    case EmitterShape::triangle: {
-      const Sample2 weights = sample_uniform_triangle(u);
-      return {e.origin + (e.a * weights.u + e.b * weights.v), cross(e.a, e.b), 1 / e.area};
-    }
-    case EmitterShape::parallelogram:
-      return {e.origin + (e.a * u.u + e.b * u.v), cross(e.a, e.b), 1 / e.area};
-    case EmitterShape::ellipse: {
-      const Sample2 p = sample_concentric_disk(u);
-      return {e.origin + (e.a * p.u + e.b * p.v), cross(e.a, e.b), 1 / e.area};
-    }
     case EmitterShape::sphere: {
       const Vector3 w = sample_uniform_sphere(u).vector();
       return {e.origin + w * e.radius, w, 1 / e.area};
@@ -59,8 +49,9 @@ AreaPoint area_point(const Emitter& e, Sample2 u) {
       return ellipsoid_point(e, u);
     case EmitterShape::tube:
       return tube_point(e, u);
+    default:  // flat shapes are sampled in the header
+      return {};
   }
-  return {};
 }
 
 // The density per area at a point the emitter was hit at.
@@ -85,11 +76,10 @@ double area_pdf(const Emitter& e, const Point3& point, const UnitVector3& normal
   return 1 / e.area;
 }
 
-double solid_angle_pdf(double area_density, const Vector3& to_point, const UnitVector3& normal) {
-  const double distance2 = length_squared(to_point);
-  const double cosine = std::fabs(dot(to_point, normal)) / std::sqrt(distance2);
-  const double pdf = area_density * distance2 / cosine;
-  return std::isfinite(pdf) ? pdf : 0;
+double solid_angle_pdf(double area_density, const Vector3& way, const UnitVector3& normal) {
+  const double distance = length(way);
+  return emitter_detail::solid_angle_pdf(area_density, distance,
+                                         std::fabs(dot(way, normal)) / distance);
 }
 
 // Squared sine of the half angle of the cone a sphere fills; nothing when `from` is not outside.
@@ -144,35 +134,42 @@ void measure(Emitter& e) {
     }
   }
   if (!std::isfinite(e.area)) e.area = 0;
+  e.error = point_error(e);
+  if (is_flat(e.shape)) {
+    const Vector3 n = cross(e.a, e.b);
+    e.normal = normalized(e.flipped ? -n : n);
+  }
 }
 
-std::optional<EmitterSample> sample_emitter(const Emitter& e, const Point3& from, Sample2 u) {
-  EmitterSample s;
+namespace emitter_detail {
+
+bool sample_curved(const Emitter& e, const Point3& from, Sample2 u, EmitterSample& out) {
   if (e.shape == EmitterShape::sphere) {
     if (const auto sin2 = cone_of(e, from)) {
-      s = cone_sample(e, from, *sin2, u);
-      s.error = point_error(e);
-      return s;
+      out = cone_sample(e, from, *sin2, u);
+      out.error = e.error;
+      return true;
     }
   }
   const AreaPoint p = area_point(e, u);
   const Vector3 way = p.point - from;
-  if (!(p.pdf > 0) || !(length_squared(way) > 0)) return std::nullopt;
-  s.point = p.point;
-  s.error = point_error(e);
-  s.normal = normalized(e.flipped ? -p.normal : p.normal);
-  s.wi = normalized(way);
-  s.pdf = solid_angle_pdf(p.pdf, way, s.normal);
-  if (!(s.pdf > 0)) return std::nullopt;
-  return s;
+  if (!(p.pdf > 0) || !(length_squared(way) > 0)) return false;
+  out.point = p.point;
+  out.error = e.error;
+  out.normal = normalized(e.flipped ? -p.normal : p.normal);
+  out.wi = normalized(way);
+  out.pdf = backend::solid_angle_pdf(p.pdf, way, out.normal);
+  return out.pdf > 0;
 }
 
-double pdf_emitter(const Emitter& e, const Point3& from, const Point3& point,
-                   const UnitVector3& normal) {
+double pdf_curved(const Emitter& e, const Point3& from, const Point3& point,
+                  const UnitVector3& normal) {
   if (e.shape == EmitterShape::sphere) {
     if (const auto sin2 = cone_of(e, from)) return pdf_uniform_cone(*sin2);
   }
-  return solid_angle_pdf(area_pdf(e, point, normal), point - from, normal);
+  return backend::solid_angle_pdf(area_pdf(e, point, normal), point - from, normal);
 }
+
+}  // namespace emitter_detail
 
 }  // namespace scenec::backend

@@ -11,7 +11,9 @@
 // Proof:      tests/unit/backend/lights/emitter_test.cpp (P03-P05, P08).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "backend/math/color.hpp"
@@ -42,10 +44,16 @@ struct Emitter {
   Vector3 a, b, c;
   double radius = 0;
   double area = 0;
-  Rgb radiance;  // constant, or the mean when textured
+  UnitVector3 normal;  // of flat shapes: the side that emits
+  Vector3 error;       // bound on the distance of sampled points from the surface
+  Rgb radiance;        // constant, or the mean when textured
 };
+[[nodiscard]] constexpr bool is_flat(EmitterShape shape) {
+  return shape == EmitterShape::triangle || shape == EmitterShape::parallelogram ||
+         shape == EmitterShape::ellipse;
+}
 
-// Computes `area`; 0 for what is too small to be chosen.
+// Computes `area` (0 for what is too small to be chosen), `normal` and `error`.
 void measure(Emitter& emitter);
 
 struct EmitterSample {
@@ -55,11 +63,51 @@ struct EmitterSample {
   UnitVector3 wi;      // from the reference point
   double pdf = 0;      // per solid angle at the reference point
 };
-[[nodiscard]] std::optional<EmitterSample> sample_emitter(const Emitter& emitter,
-                                                          const Point3& from, Sample2 u);
+
+namespace emitter_detail {
+[[nodiscard]] bool sample_curved(const Emitter& emitter, const Point3& from, Sample2 u,
+                                 EmitterSample& out);
+[[nodiscard]] double pdf_curved(const Emitter& emitter, const Point3& from, const Point3& point,
+                                const UnitVector3& normal);
+
+[[nodiscard]] inline double solid_angle_pdf(double area_density, double distance, double cosine) {
+  const double pdf = area_density * (distance * distance) / cosine;
+  return pdf <= std::numeric_limits<double>::max() ? pdf : 0;
+}
+}  // namespace emitter_detail
+
+// False: nothing to be seen from there.
+[[nodiscard]] inline bool sample_emitter(const Emitter& e, const Point3& from, Sample2 u,
+                                         EmitterSample& out) {
+  if (!is_flat(e.shape)) return emitter_detail::sample_curved(e, from, u, out);
+  if (!(e.area > 0)) return false;
+  const Sample2 at = e.shape == EmitterShape::parallelogram ? u
+                     : e.shape == EmitterShape::triangle    ? sample_uniform_triangle(u)
+                                                            : sample_concentric_disk(u);
+  out.point = e.origin + (e.a * at.u + e.b * at.v);
+  const Vector3 way = out.point - from;
+  const double distance = length(way);
+  if (!(distance > 0)) return false;
+  out.wi = UnitVector3::assume_unit(way / distance);
+  out.normal = e.normal;
+  out.error = e.error;
+  out.pdf = emitter_detail::solid_angle_pdf(1 / e.area, distance, std::fabs(dot(out.wi, e.normal)));
+  return out.pdf > 0;
+}
+[[nodiscard]] inline std::optional<EmitterSample> sample_emitter(const Emitter& e,
+                                                                 const Point3& from, Sample2 u) {
+  EmitterSample s;
+  return sample_emitter(e, from, u, s) ? std::optional(s) : std::nullopt;
+}
 // The density with which sample_emitter gives the direction from `from` to `point` on the emitter,
 // whose outer normal there is `normal`.
-[[nodiscard]] double pdf_emitter(const Emitter& emitter, const Point3& from, const Point3& point,
-                                 const UnitVector3& normal);
+[[nodiscard]] inline double pdf_emitter(const Emitter& e, const Point3& from, const Point3& point,
+                                        const UnitVector3& normal) {
+  if (!is_flat(e.shape)) return emitter_detail::pdf_curved(e, from, point, normal);
+  const Vector3 way = point - from;
+  const double distance = length(way);
+  return emitter_detail::solid_angle_pdf(1 / e.area, distance,
+                                         std::fabs(dot(way, normal)) / distance);
+}
 
 }  // namespace scenec::backend

@@ -65,105 +65,95 @@ double spot_share(const DeltaLight& light, const Vector3& travel) {
 
 void LightTable::finish(double scene_radius) {
   const double disk = pi * scene_radius * scene_radius;
-  probability_.clear();
+  power_.clear();
   for (const DeltaLight& l : deltas) {
     double factor = 4 * pi;
     if (l.kind == DeltaLight::Kind::directional) factor = disk;
     if (l.kind == DeltaLight::Kind::spot) factor = 2 * pi * (1 - (l.cos_edge + l.cos_full) / 2);
     // Without decay the light does not get weaker on its way: as much arrives as from far away.
     if (l.kind != DeltaLight::Kind::directional && !l.inverse_square) factor = disk;
-    probability_.push_back(luminance(l.value) * factor);
+    power_.push_back(luminance(l.value) * factor);
   }
   for (const Emitter& e : emitters) {
-    probability_.push_back(e.area > 0 ? luminance(e.radiance) * e.area * pi * (e.two_sided ? 2 : 1)
-                                      : 0);
+    power_.push_back(e.area > 0 ? luminance(e.radiance) * e.area * pi * (e.two_sided ? 2 : 1) : 0);
   }
   // Even light from everywhere is found best by the surface's own directions: aiming at it adds
   // noise.
   for (const Environment& e : environments)
-    probability_.push_back(e.is_constant() ? 0 : luminance(e.mean()) * pi * disk);
+    power_.push_back(e.is_constant() ? 0 : luminance(e.mean()) * pi * disk);
+  any_invisible_ =
+      std::any_of(emitters.begin(), emitters.end(), [](const Emitter& e) { return !e.visible; });
   double sum = 0;
-  for (double& p : probability_) {
+  for (double& p : power_) {
     if (!(p > 0) || !std::isfinite(p)) p = 0;
     sum += p;
   }
   cumulative_.clear();
   double running = 0;
-  for (double& p : probability_) {
+  for (double& p : power_) {
     p = sum > 0 ? p / sum : 0;
     running += p;
     cumulative_.push_back(running);
   }
 }
 
-LightTable::Choice LightTable::choose(double u) const {
+double LightTable::probability(std::size_t light, const LitPlace&) const {
+  return power_[light];
+}
+
+LightTable::Choice LightTable::choose(double u, const LitPlace&) const {
   if (cumulative_.empty() || !(cumulative_.back() > 0)) return {};
   const double scaled = u * cumulative_.back();
   const auto above = std::upper_bound(cumulative_.begin(), cumulative_.end(), scaled);
   auto light = static_cast<std::size_t>(above - cumulative_.begin());
   // Rounding of u * sum can reach the sum itself.
-  while (light >= probability_.size() || probability_[light] == 0) --light;
-  return {light, probability_[light]};
+  while (light >= power_.size() || power_[light] == 0) --light;
+  return {light, power_[light]};
 }
 
-std::optional<LightSample> LightTable::sample_delta(const DeltaLight& light,
-                                                    const Point3& from) const {
-  LightSample s;
+bool LightTable::sample_delta(const DeltaLight& light, const Point3& from, LightSample& s) {
   s.delta = true;
   if (light.kind == DeltaLight::Kind::directional) {
     s.wi = -light.direction.vector();
     s.radiance = light.value;
     s.infinite = true;
-    return s;
+    return true;
   }
   const Vector3 way = light.position - from;
   const double distance2 = length_squared(way);
-  if (!(distance2 > 0)) return std::nullopt;
+  if (!(distance2 > 0)) return false;
   s.wi = normalized(way).vector();
   s.radiance = light.inverse_square ? light.value / distance2 : light.value;
   if (light.kind == DeltaLight::Kind::spot) s.radiance *= spot_share(light, -s.wi);
   s.target = light.position;
-  return s;
+  return true;
 }
 
-std::optional<LightSample> LightTable::sample(std::size_t light, const Point3& from,
-                                              Sample2 u) const {
-  if (light < deltas.size()) return sample_delta(deltas[light], from);
+bool LightTable::sample(std::size_t light, const Point3& from, Sample2 u, LightSample& s) const {
+  if (light < deltas.size()) return sample_delta(deltas[light], from, s);
   light -= deltas.size();
-  LightSample s;
   if (light < emitters.size()) {
     const Emitter& e = emitters[light];
-    const auto chosen = sample_emitter(e, from, u);
-    if (!chosen) return std::nullopt;
-    if (!e.two_sided && !(dot(chosen->wi, chosen->normal) < 0)) return std::nullopt;
-    s.wi = chosen->wi.vector();
+    EmitterSample chosen;
+    if (!sample_emitter(e, from, u, chosen)) return false;
+    if (!e.two_sided && !(dot(chosen.wi, chosen.normal) < 0)) return false;
+    s.wi = chosen.wi.vector();
     s.radiance = e.radiance;
-    s.pdf = chosen->pdf;
-    s.target = chosen->point;
-    s.target_error = chosen->error;
-    s.target_normal = chosen->normal;
+    s.pdf = chosen.pdf;
+    s.target = chosen.point;
+    s.target_error = chosen.error;
+    s.target_normal = chosen.normal;
     s.emitter = &e;
-    return s;
+    return true;
   }
   const Environment& environment = environments[light - emitters.size()];
   const Environment::Choice chosen = environment.sample(u);
-  if (!(chosen.pdf > 0)) return std::nullopt;
+  if (!(chosen.pdf > 0)) return false;
   s.wi = chosen.wi.vector();
   s.radiance = environment.radiance(s.wi);
   s.pdf = chosen.pdf;
   s.infinite = true;
-  return s;
-}
-
-double LightTable::pdf_of_emitter(std::size_t emitter, const Point3& from, const Point3& point,
-                                  const UnitVector3& normal) const {
-  const double probability = probability_[deltas.size() + emitter];
-  return probability > 0 ? probability * pdf_emitter(emitters[emitter], from, point, normal) : 0;
-}
-
-double LightTable::pdf_of_environment(std::size_t environment, const Vector3& direction) const {
-  const double probability = probability_[deltas.size() + emitters.size() + environment];
-  return probability > 0 ? probability * environments[environment].pdf(direction) : 0;
+  return true;
 }
 
 Rgb LightTable::environment_radiance(const Vector3& direction) const {

@@ -42,8 +42,14 @@ struct LightSample {
   bool infinite = false;
   Point3 target;
   Vector3 target_error;
-  std::optional<UnitVector3> target_normal;  // the target lies on a surface
-  const Emitter* emitter = nullptr;
+  UnitVector3 target_normal;         // where the target lies on a surface
+  const Emitter* emitter = nullptr;  // that surface
+};
+
+// A place that is to be lit.
+struct LitPlace {
+  Point3 point;
+  Vector3 normal{0, 0, 0};  // of the side light can come from; zero: from all round
 };
 
 class LightTable {
@@ -55,9 +61,12 @@ class LightTable {
   // After the lists are filled: measures powers. `scene_radius`: of what can be lit.
   void finish(double scene_radius);
 
-  [[nodiscard]] std::size_t size() const { return probability_.size(); }
-  // Of being chosen; 0: never.
-  [[nodiscard]] double probability(std::size_t light) const { return probability_[light]; }
+  [[nodiscard]] std::size_t size() const { return power_.size(); }
+  [[nodiscard]] bool can_be_drawn(std::size_t light) const { return power_[light] > 0; }
+  // Whether a light has a shape that rays pass.
+  [[nodiscard]] bool any_invisible() const { return any_invisible_; }
+  // Of being chosen for a place; 0: never.
+  [[nodiscard]] double probability(std::size_t light, const LitPlace& place) const;
   [[nodiscard]] std::size_t first_emitter() const { return deltas.size(); }
   [[nodiscard]] std::size_t first_environment() const { return deltas.size() + emitters.size(); }
   [[nodiscard]] bool is_constant_environment(std::size_t light) const {
@@ -67,21 +76,19 @@ class LightTable {
     std::size_t light = 0;
     double probability = 0;  // 0: none
   };
-  [[nodiscard]] Choice choose(double u) const;
-  [[nodiscard]] std::optional<LightSample> sample(std::size_t light, const Point3& from,
-                                                  Sample2 u) const;
-  // Density per solid angle, with the choice of light, of hitting this emitter's point.
-  [[nodiscard]] double pdf_of_emitter(std::size_t emitter, const Point3& from, const Point3& point,
-                                      const UnitVector3& normal) const;
-  [[nodiscard]] double pdf_of_environment(std::size_t environment, const Vector3& direction) const;
+  [[nodiscard]] Choice choose(double u, const LitPlace& place) const;
+  // False: no light from there.
+  [[nodiscard]] bool sample(std::size_t light, const Point3& from, Sample2 u,
+                            LightSample& out) const;
   [[nodiscard]] Rgb environment_radiance(const Vector3& direction) const;
 
  private:
-  [[nodiscard]] std::optional<LightSample> sample_delta(const DeltaLight& light,
-                                                        const Point3& from) const;
+  [[nodiscard]] static bool sample_delta(const DeltaLight& light, const Point3& from,
+                                         LightSample& out);
 
-  std::vector<double> probability_;  // deltas, emitters, environments
-  std::vector<double> cumulative_;
+  std::vector<double> power_;       // deltas, emitters, environments; in sum 1
+  std::vector<double> cumulative_;  // of it
+  bool any_invisible_ = false;
 };
 
 }  // namespace scenec::backend

@@ -202,9 +202,7 @@ void finish(Bsdf& b) {
   if (b.kind == BsdfKind::coat || b.kind == BsdfKind::smooth_coat) {
     const Rgb out = b.albedo->directional(b.wo.z, b.alpha).of(b.specular) * b.compensation;
     const Rgb average = b.albedo->average(b.alpha).of(b.specular) * b.compensation;
-    const auto share = [](double o, double a) {
-      return a < 1 ? larger(0, 1 - o) / (1 - a) : 0.0;
-    };
+    const auto share = [](double o, double a) { return a < 1 ? larger(0, 1 - o) / (1 - a) : 0.0; };
     b.coat_out = {share(out.r, average.r), share(out.g, average.g), share(out.b, average.b)};
     const double coat = mean(out);
     const double base = mean(b.diffuse) * larger(0, 1 - coat);

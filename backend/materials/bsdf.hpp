@@ -56,8 +56,23 @@ struct Bsdf {
   const GgxAlbedo* albedo = nullptr;
 };
 
+// Glass whose sides have the same index neither bends nor reflects: it has no facets either.
+inline void settle_kind(Bsdf& bsdf) {
+  if (bsdf.kind == BsdfKind::rough_glass && bsdf.ior == 1) bsdf.kind = BsdfKind::glass;
+}
 // Fills what follows from the other members (compensation, probabilities). Call once.
 void finish(Bsdf& bsdf);
+// Whether an interface that lets light through is part of it.
+[[nodiscard]] inline bool is_clear(const Bsdf& bsdf) {
+  return bsdf.kind == BsdfKind::glass || bsdf.kind == BsdfKind::rough_glass ||
+         (bsdf.kind == BsdfKind::phong && bsdf.refract.r + bsdf.refract.g + bsdf.refract.b > 0);
+}
+// Whether it has a lobe that is neither Lambert's nor exactly specular.
+[[nodiscard]] inline bool is_rough(const Bsdf& bsdf) {
+  return bsdf.kind == BsdfKind::rough_glass || bsdf.kind == BsdfKind::rough_metal ||
+         bsdf.kind == BsdfKind::coat ||
+         (bsdf.kind == BsdfKind::phong && bsdf.specular.r + bsdf.specular.g + bsdf.specular.b > 0);
+}
 
 struct BsdfValue {
   Rgb f_cos;       // f * |cos wi|

@@ -4,21 +4,46 @@
 
 #include "backend/geometry/kernel.hpp"
 #include "backend/materials/bsdf.hpp"
+#include "backend/materials/fresnel.hpp"
 #include "backend/render_scene.hpp"
-#include "ir/effects.hpp"
 
 namespace scenec::backend {
 
-// Where a texture is read: at the hit, or at the middle of the texture for a picture without
-// textures.
-[[nodiscard]] inline Sample2 texture_place(const Hit& hit, const ir::EffectSet& effects) {
-  return effects.has(ir::Effect::textures) ? Sample2{hit.u, hit.v} : Sample2{0.5, 0.5};
+// Both normals on the viewer's side.
+struct TurnedNormals {
+  UnitVector3 shading;
+  UnitVector3 geometric;
+  bool entering = true;  // the viewer is outside
+};
+
+// A shading normal for which the mirror direction does not go below the surface: where it would,
+// the mirror direction is lifted just above and the normal laid between it and the viewer (as
+// Cycles does; without it polygon meshes get black rims).
+[[nodiscard]] UnitVector3 valid_normal(const UnitVector3& shading, const UnitVector3& geometric,
+                                       const Vector3& to_viewer);
+
+[[nodiscard]] inline TurnedNormals turned_normals(const Hit& hit, const UnitVector3& shading,
+                                                  const Vector3& to_viewer) {
+  TurnedNormals n;
+  n.entering = dot(hit.geometric_normal, to_viewer) >= 0;
+  n.geometric = n.entering ? hit.geometric_normal : -hit.geometric_normal;
+  n.shading = n.entering ? shading : -shading;
+  if (!(n.shading == n.geometric)) n.shading = valid_normal(n.shading, n.geometric, to_viewer);
+  return n;
 }
 
-// `mix` chooses between the parts of mixes. Rough lobes and normal maps are left out where
-// `effects` leaves them out.
+// How a material is to be looked at.
+struct ResolveOptions {
+  Sample2 uv;
+  double mix = 0;  // chooses between the parts of mixes
+  bool normal_maps = true;
+  bool rough_lobes = true;
+};
+
+// The scattering, but for the index behind the surface over the one before it, which the bodies
+// round it decide: `ior` is then set, and complete() called.
 [[nodiscard]] Bsdf resolve_bsdf(const RenderScene& scene, ir::MaterialId material, const Hit& hit,
-                                const Vector3& to_viewer, double mix, const ir::EffectSet& effects);
+                                const Vector3& to_viewer, const ResolveOptions& options);
 
 // Radiance given off towards a side; `outside`: the side the outward normal faces.
 [[nodiscard]] Rgb emission_of(const RenderScene& scene, ir::MaterialId material, Sample2 uv,

@@ -169,7 +169,7 @@ TEST(light_table, draws_in_proportion_to_power_and_never_the_dark) {  // P13, P0
   double sums[4] = {};
   constexpr int n = 4000;
   for (int i = 0; i < n; ++i) {
-    const LightTable::Choice c = table.choose((i + 0.5) / n);
+    const LightTable::Choice c = table.choose((i + 0.5) / n, {});
     ASSERT_GT(c.probability, 0);
     sums[c.light] += 1.0 / n;
   }
@@ -177,7 +177,7 @@ TEST(light_table, draws_in_proportion_to_power_and_never_the_dark) {  // P13, P0
   EXPECT_EQ(sums[1], 0);
   EXPECT_NEAR(sums[2], 0.75, 1e-3);
   EXPECT_EQ(sums[3], 0);
-  EXPECT_EQ(LightTable().choose(0.5).probability, 0);
+  EXPECT_EQ(LightTable().choose(0.5, {}).probability, 0);
 }
 
 TEST(light_table, point_light_at_the_point_itself_gives_nothing) {  // P09
@@ -185,8 +185,10 @@ TEST(light_table, point_light_at_the_point_itself_gives_nothing) {  // P09
   table.deltas.emplace_back();
   table.deltas[0].value = {1, 1, 1};
   table.finish(1);
-  EXPECT_FALSE(table.sample(0, {0, 0, 0}, {}));
-  EXPECT_TRUE(std::isfinite(table.sample(0, {1e-8, 0, 0}, {})->radiance.r));
+  LightSample sample;
+  EXPECT_FALSE(table.sample(0, {0, 0, 0}, {}, sample));
+  EXPECT_TRUE(table.sample(0, {1e-8, 0, 0}, {}, sample));
+  EXPECT_TRUE(std::isfinite(sample.radiance.r));
 }
 
 TEST(light_table, spot_fades_within_its_soft_edge) {

@@ -1,23 +1,20 @@
 // `.whitted`: light that comes straight from lights, seen directly or by way of mirrors and glass;
 // no light between matt or glossy surfaces. Mirrors and glass are followed in all their directions
 // while they matter; fainter branches are chosen by chance, so nothing is cut off.
+#pragma once
+
 #include <array>
 #include <cmath>
+#include <utility>
 
-#include "backend/integrators/tracer.hpp"
-#include "base/elementary.hpp"
+#include "backend/integrators/surface.hpp"
 
 namespace scenec::backend {
-namespace {
 
-// Branches are all followed while the path keeps this share of its light; below, one is chosen.
-constexpr double sure_share = 1.0 / 64;
-// Up to this many lights every one is asked at every surface; of more, one is chosen by power.
-constexpr std::size_t all_lights = 16;
-
+template <EffectMask compiled>
 class WhittedTracer {
  public:
-  WhittedTracer(const Tracer& tracer, const Sampler& sampler, BranchStack& waiting)
+  WhittedTracer(const Tracer<compiled>& tracer, const Sampler& sampler, BranchStack& waiting)
       : tracer_(tracer),
         scene_(tracer.scene()),
         sampler_(sampler),
@@ -26,18 +23,31 @@ class WhittedTracer {
             tracer.settings().max_depth.value_or(std::int64_t{1} << 32))) {}
 
   TracedSample trace(const Ray& ray) {
-    waiting_.branches[0] = Branch{};
-    waiting_.branches[0].ray = ray;
-    waiting_.count = 1;
-    while (waiting_.count > 0) {
-      Branch branch = waiting_.branches[--waiting_.count];
+    waiting_.count = 0;
+    Branch branch;
+    branch.ray = ray;
+    for (;;) {
       while (step(branch)) {
       }
+      if (waiting_.count == 0) return out_;
+      branch = waiting_.branches[--waiting_.count];
     }
-    return out_;
   }
 
  private:
+  // Branches are all followed while the path keeps this share of its light; below, one is chosen.
+  static constexpr double sure_share = 1.0 / 64;
+  // Up to this many lights every one is asked at every surface; of more, one is chosen.
+  static constexpr std::size_t all_lights = 16;
+  // Mirrors that lose nothing would be followed for ever.
+  static constexpr std::uint32_t longest_sure = 32;
+  static constexpr double longest_survival = 0.95;
+
+  template <ir::Effect effect>
+  [[nodiscard]] bool with() const {
+    return tracer_.template with<effect>();
+  }
+
   // Follows one ray; false when the branch ends.
   bool step(Branch& branch) {
     Hit hit;
@@ -47,41 +57,52 @@ class WhittedTracer {
       return false;
     }
     if (branch.depth == 0) out_.covered = true;
-    absorb(branch, hit.t);
+    if (!branch.media.empty()) branch.throughput *= transmittance(tracer_, branch.media, hit.t);
     const Vector3 to_viewer = -branch.ray.direction;
-    out_.radiance += branch.throughput * tracer_.emitted(hit, to_viewer);
-    const std::uint32_t light = scene_.items[hit.item].light;
-    if (light != RenderItem::none) {
-      if (scene_.lights.emitters[light].visible) return false;
+    const RenderItem& item = scene_.items[hit.item];
+    const ir::MaterialId material =
+        item.light != RenderItem::none ? ir::MaterialId{} : scene_.material_of(hit);
+    out_.radiance += branch.throughput * tracer_.emitted(hit, item, material, to_viewer);
+    if (item.light != RenderItem::none) {
+      if (scene_.lights.emitters[item.light].visible) return false;
       branch.ray = spawn_ray(hit, branch.ray.direction);
       return true;
     }
     if (branch.depth >= max_depth_) return false;
-    const ir::MaterialId material = scene_.material_of(hit);
-    const double mix = sampler_.get_1d(dimension::bounce(branch.depth) + dimension::material_mix);
-    const Bsdf bsdf = resolve_bsdf(scene_, material, hit, to_viewer, mix, tracer_.effects());
-    if (branch.depth == 0 && !out_.first.hit) out_.first = first_hit_of(tracer_, hit, bsdf);
-    if (has_smooth_part(bsdf)) out_.radiance += branch.throughput * direct(branch, hit, bsdf);
+    const PreparedMaterial& prepared = scene_.materials[material.value()];
+    if (prepared.use == PreparedMaterial::Use::matt) {
+      const MattSurface surface = matt_at(prepared, hit, to_viewer);
+      meet(branch, hit, surface, surface.shading, material);
+      return false;
+    }
+    const Bsdf bsdf =
+        bsdf_at(tracer_, branch.media, material, hit, to_viewer, sampler_, branch.depth);
+    meet(branch, hit, bsdf, bsdf.frame.z, material);
     return follow(branch, hit, bsdf, material);
   }
 
-  void absorb(Branch& branch, double distance) const {
-    if (branch.media.empty() || !tracer_.with(ir::Effect::absorption)) return;
-    const Rgb sigma = absorption_of(scene_, branch.media.innermost());
-    branch.throughput *=
-        Rgb(exp(-sigma.r * distance), exp(-sigma.g * distance), exp(-sigma.b * distance));
+  template <class Surface>
+  void meet(const Branch& branch, const Hit& hit, const Surface& surface, const UnitVector3& normal,
+            ir::MaterialId material) {
+    if (branch.depth == 0 && !out_.first.hit && tracer_.job().wants_first_hit)
+      out_.first = first_hit_of(hit, surface, normal, material);
+    if (has_smooth_part(surface))
+      out_.radiance += branch.throughput * direct(branch, hit, surface, normal);
   }
 
-  [[nodiscard]] Rgb direct(const Branch& branch, const Hit& hit, const Bsdf& bsdf) const {
+  template <class Surface>
+  [[nodiscard]] Rgb direct(const Branch& branch, const Hit& hit, const Surface& surface,
+                           const UnitVector3& normal) const {
     const auto whole = [](const LightSample&, double) { return 1.0; };
     const LightTable& lights = scene_.lights;
-    const bool many = lights.size() > all_lights && tracer_.with(ir::Effect::many_lights);
+    const bool many = lights.size() > all_lights && with<ir::Effect::many_lights>();
     Rgb sum;
     if (many) {
+      tracer_.count(ir::Effect::many_lights);
       const double u = sampler_.get_1d(dimension::bounce(branch.depth) + dimension::light_choice);
-      const LightTable::Choice choice = lights.choose(u);
+      const LightTable::Choice choice = lights.choose(u, {hit.point, normal.vector()});
       if (choice.probability > 0) {
-        sum = tracer_.direct(hit, bsdf, choice.light, branch.depth, sampler_, whole) *
+        sum = tracer_.direct(hit, surface, choice.light, branch.depth, sampler_, whole) *
               (1 / choice.probability);
       }
     }
@@ -89,7 +110,7 @@ class WhittedTracer {
          ++light) {
       // Constant environments cannot be drawn: they are asked in any case.
       if (many && !lights.is_constant_environment(light)) continue;
-      sum += tracer_.direct(hit, bsdf, light, branch.depth, sampler_, whole);
+      sum += tracer_.direct(hit, surface, light, branch.depth, sampler_, whole);
     }
     return sum;
   }
@@ -99,7 +120,7 @@ class WhittedTracer {
     SpecularRays kept;
     for (int i = 0; i < all.count; ++i) {
       const SpecularRay& ray = all.rays[static_cast<std::size_t>(i)];
-      if (tracer_.with(ray.transmitted ? ir::Effect::refraction : ir::Effect::reflection))
+      if (ray.transmitted ? with<ir::Effect::refraction>() : with<ir::Effect::reflection>())
         kept.rays[static_cast<std::size_t>(kept.count++)] = ray;
     }
     return kept;
@@ -144,32 +165,19 @@ class WhittedTracer {
                ir::MaterialId material) const {
     branch.throughput *= next.weight;
     branch.ray = spawn_ray(hit, next.wi);
-    if (next.transmitted) {
-      if (bsdf.entering)
-        branch.media.enter(material, tracer_.with(ir::Effect::nested_media));
-      else
-        branch.media.leave(material);
-    }
+    if (next.transmitted)
+      cross(tracer_, branch.media, material, bsdf.entering);
+    else
+      tracer_.count(ir::Effect::reflection);
     ++branch.depth;
   }
 
-  // Mirrors that lose nothing would be followed for ever.
-  static constexpr std::uint32_t longest_sure = 32;
-  static constexpr double longest_survival = 0.95;
-
-  const Tracer& tracer_;
+  const Tracer<compiled>& tracer_;
   const RenderScene& scene_;
   const Sampler& sampler_;
   BranchStack& waiting_;
   std::uint64_t max_depth_;
   TracedSample out_;
 };
-
-}  // namespace
-
-TracedSample trace_whitted(const Tracer& tracer, const Ray& ray, const Sampler& sampler,
-                           BranchStack& scratch) {
-  return WhittedTracer(tracer, sampler, scratch).trace(ray);
-}
 
 }  // namespace scenec::backend
