@@ -6,9 +6,6 @@
 namespace scenec::backend {
 namespace {
 
-constexpr double reach = 4;               // of origins that need no move
-constexpr double smallest = 0x1p-32;      // component of a direction
-constexpr double slack = 0x1p-21;         // of the test, in units of (1 + |o|) |r|
 constexpr double move_slack = 0x1p-49;    // of the move, in units of |o as given| |r|
 constexpr double addend_limit = 0x1p100;  // beyond it a slab decides nothing, whatever its plane
 
@@ -71,7 +68,9 @@ LocalRay make_local(const TreeSpace& space, const Ray& ray) {
     lift = 0x1p200;
     d = d * lift;
   }
-  const double size = power_of_two_below(backend::max_abs(d));
+  const double largest = backend::max_abs(d);
+  const bool fits = largest >= LocalRay::least && largest <= LocalRay::most;
+  const double size = fits ? 1 : power_of_two_below(largest);
   const double inverse = 1 / size;
   const LocalTimes times{{space.inverse_scale, inverse, lift}, {space.scale, size / lift}};
   const Point3 o = space.to_local(ray.origin);

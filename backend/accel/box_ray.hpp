@@ -2,11 +2,14 @@
 // decides, and yet no box is left out that the ray meets.
 //
 // Domain:     any ray whose origin is finite in tree space, any finite direction but zero.
-// Method:     d is scaled by a power of two to a largest component in [1, 2), so that t is of the
-//             order of tree space. Origins outside [-4, 4]^3, and rays that begin at t != 0, are
-//             moved in double to where they come near the tree (`shift`), so |o| <= 4 and the
-//             part of the ray that matters is 0 <= t <= 5. Components of d below 2^-32 become
-//             +-2^-32. Then with r = fl(1 / fl(d)) a slab plane b is met at
+// Method:     where the largest component of d is not in [2^-20, 2^20], d is scaled by a power of
+// two
+//             to one in [1, 2), so that t is within 2^20 of the order of tree space. Origins
+//             outside
+//             [-4, 4]^3, and rays that begin at t != 0, are moved in double to where they come near
+//             the tree (`shift`), so |o| <= 4 and the part of the ray that matters is
+//             0 <= t <= 5 * 2^20. Components of d below 2^-52 become +-2^-52. Then with
+//             r = fl(1 / fl(d)) a slab plane b is met at
 //               near(b) = fma(b, r, near_add), near_add = fl(-o r - m),
 //               far(b)  = fma(b, r, far_add),  far_add  = fl(-o r + m),
 //               m = 12 u (1 + |o|) |r| + 2^-49 |o as given| |r|, u = 2^-24, in float.
@@ -46,8 +49,12 @@ struct LocalTimes {
 
 // The ray in tree space: the same points.
 struct LocalRay {
+  // Of the largest component of a direction.
+  static constexpr double least = 0x1p-20;
+  static constexpr double most = 0x1p20;
+
   double origin[3];
-  double direction[3];  // largest component in [1, 2)
+  double direction[3];
   double t_min;
   double t_max;
   LocalTimes times;
@@ -59,17 +66,11 @@ struct LocalRay {
 [[nodiscard]] inline double power_of_two_below(double x) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000ULL);
 }
-// 1 / p for a normal power of two, without a division.
-[[nodiscard]] inline double reciprocal_of_power(double p) {
-  const std::uint64_t bits = 0x7fe0000000000000ULL - std::bit_cast<std::uint64_t>(p);
-  // 1 / 2^1023 is subnormal.
-  return bits == 0 ? 0x1p-1023 : std::bit_cast<double>(bits);
-}
 
 // Each array has a fourth place of no meaning.
 struct BoxRay {
   static constexpr double reach = 4;             // of origins that need no move
-  static constexpr float smallest = 0x1p-32F;    // component of a direction
+  static constexpr float smallest = 0x1p-52F;    // component of a direction
   static constexpr float slack = 12 * 0x1p-24F;  // of the test, in units of (1 + |o|) |r|
 
   alignas(16) float reciprocal[4];

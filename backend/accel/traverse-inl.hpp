@@ -60,11 +60,24 @@ HWY_INLINE double largest(double a, double b, double c) {
   return ab > c ? ab : c;
 }
 
+// x, y, z, z from `at` on. From registers or broadcasts: what has just been stored a number at a
+// time cannot be loaded as a vector without waiting for it.
+HWY_INLINE Doubles triple(double x, double y, double z, std::size_t at) {
+  const DoubleTag d;
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Set(d, at == 0 ? x : at == 1 ? y : z);
+#else
+  if (at != 0) return hn::Set(d, z);
+  const Doubles xy = hn::OddEven(hn::Set(d, y), hn::Set(d, x));
+  return triangle_lanes == 2 ? xy : hn::ConcatUpperLower(d, hn::Set(d, z), xy);
+#endif
+}
+
 // The ray of one query in tree space, made ready for boxes and (later, if it comes to that) for
 // triangles. False from `prepare`: it meets nothing.
 struct TreeRay {
   alignas(32) double origin[4];
-  alignas(32) double direction[4];  // largest component in [1, 2)
+  alignas(32) double direction[4];
   LocalTimes times;
   double t_min;
   double t_max;
@@ -73,35 +86,34 @@ struct TreeRay {
   HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, double until) {
     const DoubleTag d;
     const hn::Rebind<float, DoubleTag> f;
-    const double size = power_of_two_below(largest(
-        std::fabs(ray.direction.x), std::fabs(ray.direction.y), std::fabs(ray.direction.z)));
-    if (HWY_UNLIKELY(!(size > 0))) return prepare_slowly(tree.space, ray, until);
-    const double inverse = reciprocal_of_power(size);
-    times = LocalTimes{{tree.space.inverse_scale, inverse, 1}, {tree.space.scale, size}};
-    t_min = times.to_local(ray.t_min);
-    t_max = times.to_local(until);
-    // Four numbers from three: the fourth is the next member of the ray, and nobody looks at it.
-    const double* from = &ray.origin.x;
-    const double* along = &ray.direction.x;
+    const double size =
+        largest(std::fabs(ray.direction.x), std::fabs(ray.direction.y), std::fabs(ray.direction.z));
+    if (HWY_UNLIKELY(!(size >= LocalRay::least && size <= LocalRay::most)))
+      return prepare_slowly(tree.space, ray, until);
+    times = LocalTimes{{tree.space.inverse_scale, 1, 1}, {tree.space.scale, 1}};
+    t_min = ray.t_min * tree.space.scale;
+    t_max = until * tree.space.scale;
     const double* center = &tree.space.center.x;
     std::uint32_t negative = 0;
     for (std::size_t at = 0; at < 4; at += triangle_lanes) {
-      const Doubles o = hn::Mul(hn::Sub(hn::LoadU(d, from + at), hn::LoadU(d, center + at)),
-                                hn::Set(d, tree.space.scale));
-      const Doubles v = hn::Mul(hn::LoadU(d, along + at), hn::Set(d, inverse));
+      const Doubles o = hn::Mul(
+          hn::Sub(triple(ray.origin.x, ray.origin.y, ray.origin.z, at), hn::LoadU(d, center + at)),
+          hn::Set(d, tree.space.scale));
+      const Doubles v = triple(ray.direction.x, ray.direction.y, ray.direction.z, at);
       hn::Store(o, d, origin + at);
       hn::Store(v, d, direction + at);
       const auto vf = hn::DemoteTo(f, v);
       const auto of = hn::DemoteTo(f, o);
-      const auto r = hn::Div(hn::Set(f, 1.0F),
-                             hn::CopySign(hn::Max(hn::Abs(vf), hn::Set(f, BoxRay::smallest)), vf));
+      // Never zero, but of the sign of a zero: the sign decides which plane is near.
+      const auto along = hn::CopySign(hn::Max(hn::Abs(vf), hn::Set(f, BoxRay::smallest)), vf);
+      const auto r = hn::Div(hn::Set(f, 1.0F), along);
       const auto product = hn::Mul(of, r);
       const auto slack = hn::Set(f, BoxRay::slack);
       const auto margin = hn::Mul(hn::MulAdd(slack, hn::Abs(of), slack), hn::Abs(r));
       hn::Store(r, f, box.reciprocal + at);
       hn::Store(hn::Neg(hn::Add(product, margin)), f, box.near_add + at);
       hn::Store(hn::Sub(margin, product), f, box.far_add + at);
-      negative |= bits_of(f, hn::Lt(r, hn::Zero(f))) << at;
+      negative |= bits_of(f, hn::Lt(along, hn::Zero(f))) << at;
     }
     const double reach = largest(std::fabs(origin[0]), std::fabs(origin[1]), std::fabs(origin[2]));
     box.negative = negative;
@@ -274,11 +286,17 @@ class TriangleTest {
     const double ax = std::fabs(ray.direction[0]);
     const double ay = std::fabs(ray.direction[1]);
     const double az = std::fabs(ray.direction[2]);
-    std::uint32_t z = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
-    std::uint32_t x = z == 2 ? 0 : z + 1;
-    std::uint32_t y = x == 2 ? 0 : x + 1;
+    // Without branches, which no processor could predict.
+    const std::uint32_t x_or_y = ax > ay ? 0 : 1;
+    const double larger = ax > ay ? ax : ay;
+    const std::uint32_t z = larger > az ? x_or_y : 2;
     const double along = ray.direction[z];
-    if (along < 0) std::swap(x, y);
+    const std::uint32_t row =
+        2 * z + static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(along) >> 63);
+    static constexpr std::uint8_t first[6] = {1, 2, 2, 0, 0, 1};
+    static constexpr std::uint8_t second[6] = {2, 1, 0, 2, 1, 0};
+    const std::uint32_t x = first[row];
+    const std::uint32_t y = second[row];
     x_ = x;
     y_ = y;
     z_ = z;
@@ -348,8 +366,9 @@ class TriangleTest {
     const auto low = hn::Min(hn::Min(u, v), w);
     const auto high = hn::Max(hn::Max(u, v), w);
     const Doubles det = hn::Add(hn::Add(u, v), w);
+    // No branch on it: rays that start on a surface lie inside a triangle behind them half the
+    // time.
     const auto inside = hn::And(hn::Or(hn::Ge(low, zero), hn::Le(high, zero)), hn::Ne(det, zero));
-    if (hn::AllFalse(d, inside)) return false;
     const Doubles inverse = hn::Div(hn::Set(d, 1.0), det);
     const Doubles z = hn::Add(hn::Add(hn::Mul(u, hn::Mul(sz_, a.z)), hn::Mul(v, hn::Mul(sz_, b.z))),
                               hn::Mul(w, hn::Mul(sz_, c.z)));
