@@ -4,11 +4,8 @@
 #include <map>
 #include <unordered_map>
 
-#include "backend/assets/mesh_codec.hpp"
-#include "backend/assets/obj.hpp"
-#include "backend/assets/ply.hpp"
 #include "backend/backend.hpp"
-#include "backend/image/read_image.hpp"
+#include "backend/prepare_assets.hpp"
 #include "base/text.hpp"
 
 namespace scenec::backend {
@@ -19,104 +16,8 @@ void destroy(PreparedScene* scene) {
 
 namespace {
 
-// Where assets come from, and what is too much of them.
-struct AssetSource {
-  FileSystem& files;
-  ContentCache* cache;  // null: none
-  const Limits& limits;
-};
-
-// Diagnostics of one task; reported afterwards in the order of the tasks.
-struct TaskReport {
-  std::vector<Diagnostic> diagnostics;
-};
-
-std::optional<FileContent> read_asset(const ir::Asset& asset, FileSystem& files,
-                                      std::uint64_t limit, std::string_view limit_option,
-                                      TaskReport& report) {
-  auto content = files.read(asset.path, limit);
-  if (content) return std::move(content).value();
-  Diagnostic diagnostic(DiagnosticKind::file_unreadable, asset.span,
-                        asset.path + " cannot be read: " + files.reason_of(content.error()));
-  const bool too_large = content.error() == FileError::too_large;
-  report.diagnostics.push_back(too_large ? std::move(diagnostic).hint(sets_the_limit(limit_option))
-                                         : std::move(diagnostic));
-  return std::nullopt;
-}
-
-Diagnostic broken(DiagnosticKind kind, const ir::Asset& asset, const AssetProblem& problem) {
-  Diagnostic diagnostic(kind, asset.span,
-                        asset.path + (problem.line != 0 ? ":" + std::to_string(problem.line) : "") +
-                            ": " + problem.message);
-  if (problem.limit_option.empty()) return diagnostic;
-  return std::move(diagnostic).hint(sets_the_limit(problem.limit_option));
-}
-
-// Smaller files are decoded as fast as they are found in the cache.
-constexpr std::uint64_t smallest_cached_file = 64 * 1024;
 // Smaller trees are built as fast as they are found there.
 constexpr std::size_t smallest_cached_tree = 4096;
-
-// What is in the cache stands for the bytes whose hash it is kept under. Scenes made without the
-// front end have no hash.
-std::optional<MeshData> find_cached(ContentCache& cache, const Hash128& key) {
-  const auto entry = cache.find(key);
-  if (!entry) return std::nullopt;
-  auto mesh = decode_mesh(entry->bytes);
-  if (!mesh) cache.refuse();
-  return mesh;
-}
-
-// Whatever the format: the key of what a reader makes of the file, zero without a hash of it.
-Hash128 file_key_of(const ir::Asset& asset, const Limits& limits) {
-  if (asset.hash == Hash128{}) return {};
-  return mesh_key(asset.hash, extension_of(asset.path), MeshLimits(limits));
-}
-
-std::optional<MeshData> read_mesh(const ir::Asset& asset, const AssetSource& source,
-                                  TaskReport& report) {
-  const std::string extension = extension_of(asset.path);
-  if (extension != ".obj" && extension != ".ply") {
-    report.diagnostics.push_back(
-        Diagnostic(DiagnosticKind::mesh_format_unknown, asset.span,
-                   asset.path + " is neither an `.obj` nor a `.ply` file"));
-    return std::nullopt;
-  }
-  const MeshLimits limits(source.limits);
-  const Hash128 key = file_key_of(asset, source.limits);
-  ContentCache* cache = key == Hash128{} ? nullptr : source.cache;
-  if (cache != nullptr) {
-    if (auto cached = find_cached(*cache, key)) return cached;
-  }
-  const auto content =
-      read_asset(asset, source.files, limits.file_bytes, limit_option::mesh_bytes, report);
-  if (!content) return std::nullopt;
-  auto data =
-      extension == ".obj" ? read_obj(content->bytes, limits) : read_ply(content->bytes, limits);
-  if (data) {
-    // The file may have changed since its hash was taken.
-    if (cache != nullptr && content->bytes.size() >= smallest_cached_file &&
-        hash_bytes(content->bytes) == asset.hash) {
-      const EncodedMesh encoded(data.value());
-      cache->store(key, encoded.pieces());
-    }
-    return std::move(data).value();
-  }
-  report.diagnostics.push_back(broken(DiagnosticKind::mesh_broken, asset, data.error()));
-  return std::nullopt;
-}
-
-std::shared_ptr<const DecodedImage> read_picture(const ir::Asset& asset, const AssetSource& source,
-                                                 TaskReport& report) {
-  const ImageLimits limits(source.limits);
-  const auto content =
-      read_asset(asset, source.files, limits.file_bytes, limit_option::image_bytes, report);
-  if (!content) return nullptr;
-  auto image = read_image(content->bytes, extension_of(asset.path), limits);
-  if (image) return std::make_shared<DecodedImage>(std::move(image).value());
-  report.diagnostics.push_back(broken(DiagnosticKind::image_broken, asset, image.error()));
-  return nullptr;
-}
 
 // Meshes grouped by the file they come from: a file is read once and forgotten when its meshes are
 // made. Inline meshes are groups of their own.
@@ -190,6 +91,7 @@ class FileMeshes {
     take_report(report, task);
   }
 
+  [[nodiscard]] std::size_t count() const { return made_.size(); }
   MeshPtr mesh_of(const ir::Mesh& source) {
     const auto same_mesh = std::ranges::find_if(made_, [&](const Made& made) {
       return same_whole(*made.source, source) && made.source->part == source.part;
@@ -261,7 +163,9 @@ void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::ve
   const Hash128 file_key = file_key_of(asset, source.limits);
   for (const std::size_t index : group.meshes) {
     const ir::Mesh& mesh = mesh_at(scene, index);
+    const std::size_t made_before = meshes.count();
     prepared.meshes[index] = meshes.mesh_of(mesh);
+    if (meshes.count() != made_before) source.budget.take(memory_of(*prepared.meshes[index]));
     if (file_key != Hash128{} && prepared.meshes[index]->faces.size() >= smallest_cached_tree)
       prepared.mesh_keys[index] = key_of(mesh, file_key);
   }
@@ -278,11 +182,20 @@ std::vector<ir::AssetId> images_of(const ir::Scene& scene) {
   return images;
 }
 
+Diagnostic too_much_memory(const ir::Scene& scene, const Limits& limits) {
+  const Span first = scene.assets.size() == 0 ? Span{} : scene.assets[ir::AssetId(0)].span;
+  return Diagnostic(DiagnosticKind::assets_too_large, first,
+                    "the meshes and pictures of the scene take more than " +
+                        std::to_string(limits.asset_memory) + " bytes of memory")
+      .hint(sets_the_limit(limit_option::asset_memory));
+}
+
 }  // namespace
 
 PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
                     DiagnosticSink& sink, ContentCache* cache, const Limits& limits) {
-  const AssetSource source{files, cache, limits};
+  MemoryBudget budget(limits.asset_memory);
+  const AssetSource source{files, cache, limits, budget};
   PreparedPtr prepared(new PreparedScene{&scene, {}, {}, {}});
   prepared->meshes.resize(scene.table<ir::Mesh>().size());
   prepared->mesh_keys.resize(prepared->meshes.size());
@@ -292,6 +205,7 @@ PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
   const std::vector<Span> spans = spans_of_meshes(scene);
   std::vector<TaskReport> reports(groups.size() + images.size());
   pool.for_each(reports.size(), [&](std::size_t i, unsigned) {
+    if (budget.exceeded()) return;
     if (i < groups.size()) {
       prepare_group(groups[i], scene, spans, source, *prepared, reports[i]);
     } else {
@@ -300,6 +214,10 @@ PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
     }
   });
   const std::size_t errors_before = sink.error_count();
+  if (budget.exceeded()) {  // what else is wrong depends on how far the reading came
+    sink.report(too_much_memory(scene, limits));
+    return nullptr;
+  }
   for (TaskReport& report : reports) {
     for (Diagnostic& diagnostic : report.diagnostics) sink.report(std::move(diagnostic));
   }

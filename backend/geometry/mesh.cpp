@@ -36,6 +36,12 @@ bool texture_tangents(const std::array<Sample2, 3>& uv, Surface& s) {
 
 }  // namespace
 
+std::uint64_t memory_of(const TriangleMesh& mesh) {
+  const auto bytes = [](const auto& list) { return std::uint64_t{sizeof(list[0])} * list.size(); };
+  return bytes(mesh.positions) + bytes(mesh.faces) + bytes(mesh.normals) +
+         bytes(mesh.normal_faces) + bytes(mesh.uvs) + bytes(mesh.uv_faces);
+}
+
 Triangle triangle_of(const TriangleMesh& mesh, std::uint32_t face) {
   const Face& f = mesh.faces[face];
   return {mesh.positions[f[0]], mesh.positions[f[1]], mesh.positions[f[2]]};

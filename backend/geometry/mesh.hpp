@@ -31,6 +31,7 @@ struct TriangleMesh {
   std::vector<Face> uv_faces;      // empty: as `faces`
 };
 
+[[nodiscard]] std::uint64_t memory_of(const TriangleMesh& mesh);  // bytes
 [[nodiscard]] Triangle triangle_of(const TriangleMesh& mesh, std::uint32_t face);
 [[nodiscard]] Bounds3 bounds(const TriangleMesh& mesh);
 // `hit.part` is the face.

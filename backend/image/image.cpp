@@ -38,6 +38,12 @@ void convert(const DecodedImage& image, const std::vector<Sample>& samples, Floa
 
 }  // namespace
 
+std::uint64_t memory_of(const DecodedImage& image) {
+  return std::visit(
+      [](const auto& samples) { return std::uint64_t{sizeof(samples[0])} * samples.size(); },
+      image.samples);
+}
+
 FloatImage linear_image_of(const DecodedImage& image) {
   FloatImage result{image.width, image.height, image.channels, {}};
   std::visit([&](const auto& samples) { convert(image, samples, result); }, image.samples);

@@ -25,6 +25,8 @@ struct DecodedImage {
   std::uint64_t replaced_samples = 0;  // not-a-number and infinite floats, stored as 0
 };
 
+[[nodiscard]] std::uint64_t memory_of(const DecodedImage& image);  // bytes
+
 struct FloatImage {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
