@@ -29,6 +29,7 @@ class ItemAdder {
   void add_all() {
     // World items first, so that ties between them go to the first one placed.
     const auto world = static_cast<std::uint32_t>(scene_.items.size());
+    out_.items.reserve(item_count());
     for (const ir::Item& item : scene_.items) out_.items.push_back({item.material});
     first_of_proto_.reserve(scene_.protos.size());
     std::uint32_t next = world;
@@ -50,16 +51,21 @@ class ItemAdder {
 
  private:
   void fill(SceneAccel& accel, const std::vector<ir::Item>& items, std::uint32_t first) {
-    std::map<ir::TransformId, SceneAccel::TransformIndex> places;
     for (std::size_t i = 0; i < items.size(); ++i) {
       const ir::Item& item = items[i];
-      const auto [place, added] = places.try_emplace(item.transform, SceneAccel::identity);
-      if (added && item.transform.valid())
-        place->second = accel.add_transform(transform_of(scene_, item.transform));
       const bool transparent = !item.material.valid() || out_.facts.transparent(item.material);
-      add(accel, first + static_cast<std::uint32_t>(i), item, place->second,
+      add(accel, first + static_cast<std::uint32_t>(i), item, place_of(accel, item.transform),
           transparent || overridden_ ? ItemOption::filtered : ItemOption::plain);
     }
+    for (const ir::Item& item : items)
+      if (item.transform.valid()) places_[item.transform.value()] = unplaced;
+  }
+
+  SceneAccel::TransformIndex place_of(SceneAccel& accel, ir::TransformId id) {
+    if (!id.valid()) return SceneAccel::identity;
+    SceneAccel::TransformIndex& place = places_[id.value()];
+    if (place == unplaced) place = accel.add_transform(transform_of(scene_, id));
+    return place;
   }
 
   void add(SceneAccel& accel, std::uint32_t number, const ir::Item& item,
@@ -142,9 +148,19 @@ class ItemAdder {
   bool overridden_ = has_transparent_override();
   std::vector<std::uint32_t> first_of_proto_;
   std::vector<std::shared_ptr<const SceneAccel>> protos_;
+  // What each transform has become in the accelerator that is being filled.
+  static constexpr SceneAccel::TransformIndex unplaced = 0xffffffff;
+  std::vector<SceneAccel::TransformIndex> places_ =
+      std::vector<SceneAccel::TransformIndex>(scene_.transforms.size(), unplaced);
   std::map<const void*, std::shared_ptr<const MeshAccel>> meshes_;
   std::map<Id<ir::Revolve>, std::shared_ptr<const Revolve>> revolves_;
   std::map<Id<ir::Revolve>, std::shared_ptr<const MeshAccel>> tessellated_;
+
+  [[nodiscard]] std::size_t item_count() const {
+    std::size_t count = scene_.items.size();
+    for (const ir::Proto& proto : scene_.protos) count += proto.items.size();
+    return count;
+  }
 
   [[nodiscard]] bool has_transparent_override() const {
     const auto any = [&](const std::vector<ir::Item>& items) {

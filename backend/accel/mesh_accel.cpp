@@ -6,20 +6,14 @@
 #include <cmath>
 #include <vector>
 
+#include "backend/accel/chunks.hpp"
 #include "backend/accel/tree_build.hpp"
 
 namespace scenec::backend {
 namespace {
 
-constexpr std::size_t chunk = 16384;
 // Measured: between 0.5 and 2.5 rays take the same time, and larger leaves take less memory.
 constexpr float node_cost = 1.5F;
-
-template <class F>
-void for_chunks(ThreadPool& pool, std::size_t count, F&& f) {
-  pool.for_each((count + chunk - 1) / chunk,
-                [&](std::size_t i, unsigned) { f(i * chunk, std::min(count, (i + 1) * chunk)); });
-}
 
 struct FloatPoint {
   float x, y, z;
@@ -33,14 +27,14 @@ Point3 widened(const FloatPoint& p) {
 }
 
 Bounds3 bounds_of_positions(const TriangleMesh& mesh, ThreadPool& pool) {
-  std::vector<Bounds3> parts((mesh.faces.size() + chunk - 1) / chunk);
+  std::vector<Bounds3> parts(chunks_of(mesh.faces.size()));
   for_chunks(pool, mesh.faces.size(), [&](std::size_t first, std::size_t last) {
     Bounds3 b;
     for (std::size_t f = first; f < last; ++f) {
       const Bounds3 face = bounds(triangle_of(mesh, static_cast<std::uint32_t>(f)));
       if (face.finite()) b.grow(face);
     }
-    parts[first / chunk] = b;
+    parts[first / chunk_size] = b;
   });
   Bounds3 all;
   for (const Bounds3& b : parts) all.grow(b);
@@ -259,14 +253,12 @@ class TriangleSplitter final : public RefSplitter {
 template <class T, class Vertices>
 void build_mesh_tree(const TriangleMesh& mesh, const Vertices& vertices, ThreadPool& pool,
                      WideTree& tree, HugeVector<TriangleBlock<T>>& blocks) {
-  std::vector<BuildRef> refs = refs_of(mesh, vertices, pool);
   BuildSettings settings;
   settings.block_width = TriangleBlock<T>::width;
   settings.node_cost = node_cost;
   const TriangleSplitter<Vertices> splitter(mesh, vertices);
   settings.splitter = &splitter;
-  BuiltTree built = build_tree(refs, settings, pool);
-  refs = {};
+  BuiltTree built = build_tree(refs_of(mesh, vertices, pool), settings, pool);
   tree.root = built.root;
   tree.empty = built.empty;
   tree.nodes = std::move(built.nodes);

@@ -1,9 +1,14 @@
 #include "backend/accel/scene_accel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <utility>
 
+#include "backend/accel/chunks.hpp"
+#include "backend/accel/float_box.hpp"
 #include "backend/accel/scene_data.hpp"
 #include "backend/accel/tree_build.hpp"
 #include "base/assert.hpp"
@@ -35,6 +40,15 @@ std::pair<std::vector<Cylinder>*, ShapeKind> store_of(SceneAccel::Data& d, const
   return {&d.cylinders, ShapeKind::cylinder};
 }
 
+// One entry for all items that share it and follow each other: ten million instances of one proto
+// need one.
+template <class T>
+std::uint32_t push_shared(std::vector<std::shared_ptr<const T>>& values,
+                          std::shared_ptr<const T> value) {
+  if (values.empty() || values.back() != value) values.push_back(std::move(value));
+  return static_cast<std::uint32_t>(values.size() - 1);
+}
+
 template <class T>
 std::uint32_t push(std::vector<T>& values, T value) {
   SCENEC_ASSERT(values.size() < Hit::none);
@@ -51,15 +65,14 @@ SceneAccel::SceneAccel(SceneAccel&&) noexcept = default;
 SceneAccel& SceneAccel::operator=(SceneAccel&&) noexcept = default;
 
 SceneAccel::TransformIndex SceneAccel::add_transform(const Transform& world_from_object) {
-  if (world_from_object.is_identity()) return identity;
-  return push(data_->transforms, world_from_object);
+  return data_->places.add(world_from_object);
 }
 
 template <class Shape>
 void SceneAccel::add(std::uint32_t item, const Shape& shape, TransformIndex place,
                      ItemOption option) {
   static_assert(ShapeKernel<Shape>);
-  SCENEC_ASSERT(!data_->built && place < data_->transforms.size());
+  SCENEC_ASSERT(!data_->built && data_->places.holds(place));
   const auto [store, kind] = store_of(*data_, shape);
   data_->items.push_back({item, place, push(*store, shape), kind, option});
 }
@@ -74,26 +87,26 @@ template void SceneAccel::add(std::uint32_t, const Cylinder&, TransformIndex, It
 
 void SceneAccel::add_mesh(std::uint32_t item, std::shared_ptr<const MeshAccel> mesh,
                           TransformIndex place, ItemOption option) {
-  SCENEC_ASSERT(!data_->built && place < data_->transforms.size() && mesh != nullptr);
+  SCENEC_ASSERT(!data_->built && data_->places.holds(place) && mesh != nullptr);
   data_->items.push_back(
-      {item, place, push(data_->meshes, std::move(mesh)), ShapeKind::mesh, option});
+      {item, place, push_shared(data_->meshes, std::move(mesh)), ShapeKind::mesh, option});
 }
 
 void SceneAccel::add_revolve(std::uint32_t item, std::shared_ptr<const Revolve> revolve,
                              TransformIndex place, ItemOption option) {
-  SCENEC_ASSERT(!data_->built && place < data_->transforms.size() && revolve != nullptr);
+  SCENEC_ASSERT(!data_->built && data_->places.holds(place) && revolve != nullptr);
   data_->items.push_back(
-      {item, place, push(data_->revolves, std::move(revolve)), ShapeKind::revolve, option});
+      {item, place, push_shared(data_->revolves, std::move(revolve)), ShapeKind::revolve, option});
 }
 
 void SceneAccel::add_instance(std::uint32_t item, std::shared_ptr<const SceneAccel> world,
                               TransformIndex place) {
-  SCENEC_ASSERT(!data_->built && place < data_->transforms.size() && world != nullptr &&
+  SCENEC_ASSERT(!data_->built && data_->places.holds(place) && world != nullptr &&
                 world->data_->built);
   SCENEC_ASSERT(world->data_->depth < Hit::max_instances);
   data_->depth = std::max(data_->depth, world->data_->depth + 1);
-  data_->items.push_back(
-      {item, place, push(data_->worlds, std::move(world)), ShapeKind::instance, ItemOption::plain});
+  data_->items.push_back({item, place, push_shared(data_->worlds, std::move(world)),
+                          ShapeKind::instance, ItemOption::plain});
 }
 
 Bounds3 SceneAccel::Data::object_bounds(const PlacedItem& item) const {
@@ -127,43 +140,10 @@ Bounds3 SceneAccel::Data::object_bounds(const PlacedItem& item) const {
 namespace {
 
 // An item that alone makes the whole this many times larger is better kept out of the tree.
-constexpr double spoiling = 16;
+constexpr float spoiling_ratio = 16;
 constexpr int max_apart = 8;
 // A shape takes longer than the boxes of a node.
 constexpr float node_cost_of_items = 0.5F;
-
-double reach_from(const Point3& middle, const Bounds3& b) {
-  return std::fmax(max_abs(b.min - middle), max_abs(b.max - middle));
-}
-
-// The boxes that are moved out of the tree, largest first.
-std::vector<std::size_t> spoiling_boxes(std::vector<Bounds3> boxes) {
-  std::vector<std::size_t> apart;
-  while (static_cast<int>(apart.size()) < max_apart && boxes.size() > apart.size() + 1) {
-    Vector3 sum;
-    for (const Bounds3& b : boxes)
-      if (!b.empty()) sum += as_vector(b.centroid()) / static_cast<double>(boxes.size());
-    std::size_t farthest = 0;
-    double reach = -1;
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const double r = boxes[i].empty() ? -1 : reach_from(as_point(sum), boxes[i]);
-      if (r > reach) {
-        reach = r;
-        farthest = i;
-      }
-    }
-    Bounds3 all;
-    Bounds3 rest;
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      all.grow(boxes[i]);
-      if (i != farthest) rest.grow(boxes[i]);
-    }
-    if (!(max_abs(rest.extent()) * spoiling < max_abs(all.extent()))) break;
-    apart.push_back(farthest);
-    boxes[farthest] = {};
-  }
-  return apart;
-}
 
 // One ulp outward beyond what rounding to tree space can cost.
 BuildRef ref_of(const TreeSpace& space, const Bounds3& box, std::uint32_t id) {
@@ -174,45 +154,107 @@ BuildRef ref_of(const TreeSpace& space, const Bounds3& box, std::uint32_t id) {
           0};
 }
 
+// The largest extent of a box of floats.
+float extent_of(const FloatBox& box) {
+  const Float4 e = box.max - box.min;
+  return std::fmax(e[0], std::fmax(e[1], e[2]));
+}
+
+// The item that makes the whole many times larger, if there is one.
+std::optional<std::uint32_t> find_spoiling(std::span<const BuildRef> refs) {
+  if (refs.size() < 2) return std::nullopt;
+  std::array<double, 3> sum{};
+  FloatBox all;
+  for (const BuildRef& ref : refs) {
+    const FloatBox box = box_of(ref);
+    all.grow(box);
+    const Float4 center = center_of(box);
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<double>(center[k]);
+  }
+  Float4 middle{};
+  for (std::size_t k = 0; k < 3; ++k)
+    middle[k] = static_cast<float>(sum[k] / static_cast<double>(2 * refs.size()));
+  // `rest`: without the one that reaches farthest so far.
+  FloatBox rest;
+  FloatBox farthest;
+  float reach = -1;
+  std::uint32_t spoiling = 0;
+  for (const BuildRef& ref : refs) {
+    const FloatBox box = box_of(ref);
+    const Float4 far = max_of(box.max - middle, middle - box.min);
+    const float r = std::fmax(far[0], std::fmax(far[1], far[2]));
+    if (r > reach) {
+      rest.grow(farthest);
+      reach = r;
+      farthest = box;
+      spoiling = ref.id;
+    } else {
+      rest.grow(box);
+    }
+  }
+  if (!(extent_of(rest) * spoiling_ratio < extent_of(all))) return std::nullopt;
+  return spoiling;
+}
+
+// Bounds of all items, a chunk at a time.
+Bounds3 bounds_of(const SceneAccel::Data& d, std::span<const PlacedItem> items, ThreadPool& pool) {
+  std::vector<Bounds3> parts(chunks_of(items.size()));
+  for_chunks(pool, items.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      parts[first / chunk_size].grow(d.world_bounds(items[i]));
+  });
+  Bounds3 all;
+  for (const Bounds3& b : parts) all.grow(b);
+  return all;
+}
+
+std::vector<BuildRef> refs_of(const SceneAccel::Data& d, std::span<const PlacedItem> items,
+                              const TreeSpace& space, ThreadPool& pool) {
+  std::vector<BuildRef> refs(items.size());
+  for_chunks(pool, items.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      refs[i] = ref_of(space, d.world_bounds(items[i]), static_cast<std::uint32_t>(i));
+  });
+  return refs;
+}
+
 }  // namespace
 
+Bounds3 SceneAccel::Data::world_bounds(const PlacedItem& item) const {
+  const Bounds3 own = object_bounds(item);
+  return own.empty() || !own.finite() ? own : places[item.transform].apply(own);
+}
+
+// Boxes are computed again rather than kept: ten million of them in double would be half a
+// gigabyte.
 void SceneAccel::build(ThreadPool& pool, Target target) {
   Data& d = *data_;
   SCENEC_ASSERT(!d.built);
   d.built = true;
   d.target = target;
   kernels_ = &query_kernels(target);
-  std::vector<PlacedItem> bounded;
-  std::vector<Bounds3> boxes;
-  bounded.reserve(d.items.size());
-  boxes.reserve(d.items.size());
-  for (const PlacedItem& item : d.items) {
-    const Bounds3 own = d.object_bounds(item);
-    if (own.empty()) continue;
-    const Bounds3 box = own.finite() ? d.transforms[item.transform].apply(own) : own;
-    if (box.finite()) {
-      bounded.push_back(item);
-      boxes.push_back(box);
-    } else {
-      d.unbounded.push_back(item);
-      d.infinite = true;
-    }
-  }
-  for (const Bounds3& b : boxes) d.tree.bounds.grow(b);
-  for (const std::size_t i : spoiling_boxes(boxes)) {
-    d.unbounded.push_back(bounded[i]);
-    boxes[i] = {};
-  }
-  Bounds3 inside;
-  for (const Bounds3& b : boxes) inside.grow(b);
-  d.tree.space = space_of(inside);
+  std::vector<PlacedItem> bounded = std::move(d.items);
+  std::erase_if(bounded, [&](const PlacedItem& item) {
+    const Bounds3 box = d.world_bounds(item);
+    if (box.empty()) return true;
+    if (box.finite()) return false;
+    d.unbounded.push_back(item);
+    d.infinite = true;
+    return true;
+  });
+  d.tree.bounds = bounds_of(d, bounded, pool);
   std::vector<BuildRef> refs;
-  refs.reserve(boxes.size());
-  for (std::uint32_t i = 0; i < boxes.size(); ++i)
-    if (!boxes[i].empty()) refs.push_back(ref_of(d.tree.space, boxes[i], i));
+  for (int apart = 0; apart <= max_apart; ++apart) {
+    d.tree.space = space_of(apart == 0 ? d.tree.bounds : bounds_of(d, bounded, pool));
+    refs = refs_of(d, bounded, d.tree.space, pool);
+    const auto spoiling = apart < max_apart ? find_spoiling(refs) : std::nullopt;
+    if (!spoiling) break;
+    d.unbounded.push_back(bounded[*spoiling]);
+    bounded.erase(bounded.begin() + static_cast<std::ptrdiff_t>(*spoiling));
+  }
   BuildSettings settings;
   settings.node_cost = node_cost_of_items;
-  BuiltTree built = build_tree(refs, settings, pool);
+  BuiltTree built = build_tree(std::move(refs), settings, pool);
   d.tree.root = built.root;
   d.tree.empty = built.empty;
   d.tree.nodes = std::move(built.nodes);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "backend/accel/placements.hpp"
 #include "backend/accel/scene_accel.hpp"
 
 namespace scenec::backend {
@@ -25,14 +26,14 @@ enum class ShapeKind : std::uint8_t {
 
 struct PlacedItem {
   std::uint32_t item = 0;       // the caller's number
-  std::uint32_t transform = 0;  // into Data::transforms, 0 = identity
+  std::uint32_t transform = 0;  // into Data::places, 0 = identity
   std::uint32_t index = 0;      // into the array of its kind
   ShapeKind kind = ShapeKind::sphere;
   ItemOption option = ItemOption::plain;
 };
 
 struct SceneAccel::Data {
-  std::vector<Transform> transforms{Transform()};
+  Placements places;
   std::vector<Sphere> spheres;
   std::vector<Plane> planes;
   std::vector<Triangle> triangles;
@@ -55,6 +56,8 @@ struct SceneAccel::Data {
 
   [[nodiscard]] static const Data& of(const SceneAccel& accel) { return *accel.data_; }
   [[nodiscard]] Bounds3 object_bounds(const PlacedItem& item) const;
+  // Empty: nothing to hit; not finite: to be kept out of the tree.
+  [[nodiscard]] Bounds3 world_bounds(const PlacedItem& item) const;
 };
 
 // An item and the world it is placed in.

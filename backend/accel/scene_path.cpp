@@ -38,7 +38,7 @@ Surface object_surface(const Placement& place, const Ray& ray, const ShapeHit& h
 // One placement outward: from its object space to the space it is placed in.
 void to_outer(const Placement& place, Surface& s, HitDetail detail) {
   if (place.item->transform == SceneAccel::identity) return;
-  const Transform& t = place.world->transforms[place.item->transform];
+  const Transform t = place.world->places[place.item->transform];
   s.error = t.apply_abs(s.error) + t.round_trip_error(s.point);
   s.point = t.apply(s.point);
   s.geometric_normal = t.apply(s.geometric_normal);
@@ -51,9 +51,7 @@ void to_outer(const Placement& place, Surface& s, HitDetail detail) {
 }  // namespace
 
 Ray to_object(const Placement& place, const Ray& ray) {
-  if (place.item->transform == SceneAccel::identity) return ray;
-  const Transform& t = place.world->transforms[place.item->transform];
-  return {t.apply_inverse(ray.origin), t.apply_inverse(ray.direction), ray.t_min, ray.t_max};
+  return place.world->places.to_object(place.item->transform, ray);
 }
 
 bool intersect_shape(const World& w, const PlacedItem& item, const Ray& ray, ShapeHit& out) {

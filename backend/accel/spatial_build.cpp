@@ -224,7 +224,7 @@ bool split_spatially(SpatialRange& range, const BuildSettings& settings, float r
     }
     if (plane.cost < object.cost && divide(range, settings, plane, object.cost, left, right)) {
       share_extra(range, left, right);
-      range.refs = {};
+      range.refs = std::vector<BuildRef>();
       return true;
     }
     left.refs.clear();
@@ -232,7 +232,7 @@ bool split_spatially(SpatialRange& range, const BuildSettings& settings, float r
   }
   split_by_objects(range, whole, object, left, right);
   share_extra(range, left, right);
-  range.refs = {};
+  range.refs = std::vector<BuildRef>();
   return true;
 }
 

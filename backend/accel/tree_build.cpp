@@ -1,6 +1,7 @@
 #include "backend/accel/tree_build.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "backend/accel/binary_build.hpp"
 #include "backend/accel/spatial_build.hpp"
@@ -39,8 +40,8 @@ struct Task {
 
 class Builder {
  public:
-  Builder(std::span<BuildRef> refs, const BuildSettings& settings, ThreadPool& pool)
-      : refs_(refs), settings_(settings), pool_(pool) {}
+  Builder(std::vector<BuildRef> refs, const BuildSettings& settings, ThreadPool& pool)
+      : refs_(std::move(refs)), settings_(settings), pool_(pool) {}
 
   BuiltTree run() {
     BuiltTree out;
@@ -53,14 +54,14 @@ class Builder {
       top_.clear();
       tasks_.clear();
       root_area_ = whole.box.half_area();
-      SpatialRange all{
-          {refs_.begin(), refs_.end()},
-          static_cast<std::size_t>(settings_.extra_refs * static_cast<float>(refs_.size())),
-          0};
+      const float extra = settings_.extra_refs * static_cast<float>(refs_.size());
+      SpatialRange all{std::move(refs_), static_cast<std::size_t>(extra), 0};
       build_top_spatially(std::move(all));
       pool_.for_each(tasks_.size(),
                      [&](std::size_t i, unsigned) { build_task_spatially(tasks_[i]); });
     }
+    // Not `= {}`, which keeps the memory.
+    refs_ = std::vector<BuildRef>();
     std::uint32_t nodes = count_top_nodes(0);
     std::uint32_t blocks = 0;
     for (Task& task : tasks_) {
@@ -96,12 +97,22 @@ class Builder {
     return self;
   }
 
-  void build_task(Task& task) const {
+  void build_task(Task& task) {
     const std::vector<BinaryNode> tree = build_binary(refs_, task.range, settings_);
-    task.nodes.reserve(tree.size() / 8 + 1);
-    task.ids.reserve(task.range.count + task.range.count / 2);
-    task.root = collapse(tree, refs_, settings_, task.nodes, task.ids);
+    collapse_task(tree, refs_, task);
     measure_overlap(tree, task);
+  }
+
+  // What waits to be placed takes no more than it holds: there may be a thousand tasks.
+  void collapse_task(std::span<const BinaryNode> tree, std::span<const BuildRef> refs,
+                     Task& task) const {
+    HugeVector<WideNode> nodes;
+    std::vector<std::uint32_t> ids;
+    nodes.reserve(tree.size() / 8 + 1);
+    ids.reserve(task_size + task_size / 2);
+    task.root = collapse(tree, refs, settings_, nodes, ids);
+    task.nodes.assign(nodes.begin(), nodes.end());
+    task.ids.assign(ids.begin(), ids.end());
   }
 
   static void measure_overlap(std::span<const BinaryNode> tree, Task& task) {
@@ -149,7 +160,7 @@ class Builder {
     std::vector<BuildRef> refs;
     const std::vector<BinaryNode> tree =
         build_binary_spatially(std::move(task.spatial), settings_, root_area_, refs);
-    task.root = collapse(tree, refs, settings_, task.nodes, task.ids);
+    collapse_task(tree, refs, task);
   }
 
   static TreeRef moved(TreeRef ref, const Task& task) {
@@ -166,8 +177,8 @@ class Builder {
     std::copy(task.ids.begin(), task.ids.end(),
               out.ids.begin() + static_cast<std::ptrdiff_t>(std::size_t{task.first_block} *
                                                             settings_.block_width));
-    task.nodes = {};
-    task.ids = {};
+    task.nodes = HugeVector<WideNode>();
+    task.ids = std::vector<std::uint32_t>();
   }
 
   // The children of a wide node: the largest is opened as long as there is room.
@@ -215,7 +226,7 @@ class Builder {
   [[nodiscard]] TopNode& at(int i) { return top_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const TopNode& at(int i) const { return top_[static_cast<std::size_t>(i)]; }
 
-  std::span<BuildRef> refs_;
+  std::vector<BuildRef> refs_;
   const BuildSettings& settings_;
   ThreadPool& pool_;
   std::vector<TopNode> top_;
@@ -226,8 +237,8 @@ class Builder {
 
 }  // namespace
 
-BuiltTree build_tree(std::span<BuildRef> refs, const BuildSettings& settings, ThreadPool& pool) {
-  return Builder(refs, settings, pool).run();
+BuiltTree build_tree(std::vector<BuildRef> refs, const BuildSettings& settings, ThreadPool& pool) {
+  return Builder(std::move(refs), settings, pool).run();
 }
 
 }  // namespace scenec::backend

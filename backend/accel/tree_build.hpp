@@ -79,8 +79,8 @@ struct BuiltTree {
   std::vector<std::uint32_t> ids;
 };
 
-// Reorders `refs`.
-[[nodiscard]] BuiltTree build_tree(std::span<BuildRef> refs, const BuildSettings& settings,
+// Takes `refs` and frees them when they are no longer needed.
+[[nodiscard]] BuiltTree build_tree(std::vector<BuildRef> refs, const BuildSettings& settings,
                                    ThreadPool& pool);
 
 }  // namespace scenec::backend
