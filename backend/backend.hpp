@@ -26,6 +26,7 @@ namespace scenec::backend {
 struct PreparedScene;
 // Accelerators and kernels' data; immutable, used by any number of threads.
 struct RenderScene;
+class TreeStore;  // backend/accel/tree_store.hpp
 void destroy(PreparedScene* scene);
 void destroy(RenderScene* scene);
 struct Destroy {
@@ -47,6 +48,7 @@ using RenderScenePtr = std::unique_ptr<RenderScene, Destroy>;
 
 struct BuildOptions {
   ContentCache* cache = nullptr;  // a tree it has for a mesh is not built again
+  TreeStore* trees = nullptr;     // the same in memory, for builds that follow each other
   // May move what is seen by the rounding of a vertex; the picture of either is deterministic.
   Precision precision = Precision::mixed;
   Target target = best_target();  // of no influence on any hit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "backend/accel/tree_store.hpp"
 #include "backend/backend.hpp"
 #include "backend/math/rng.hpp"
 
@@ -52,6 +53,7 @@ RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool, const Buil
   add_items(prepared, *scene, pool, options);
   add_lights(prepared, *scene);
   scene->accel.build(pool, options.target);
+  if (options.trees != nullptr) options.trees->drop_unused();
   const Bounds3 bounds = scene->accel.bounds();
   if (!bounds.empty() && bounds.finite())
     scene->radius = std::fmax(length(bounds.extent()) / 2, 0x1p-500);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "backend/accel/tree_codec.hpp"
+#include "backend/accel/tree_store.hpp"
 #include "backend/build.hpp"
 #include "backend/geometry/revolve_mesh.hpp"
 
@@ -104,7 +105,7 @@ class ItemAdder {
   std::shared_ptr<const MeshAccel> mesh_accel(std::size_t index) {
     const std::shared_ptr<const TriangleMesh>& mesh = prepared_.meshes[index];
     auto& slot = meshes_[mesh.get()];
-    if (!slot) slot = made_accel(mesh, prepared_.mesh_keys[index]);
+    if (!slot) slot = kept_accel(mesh, prepared_.mesh_keys[index]);
     out_.meshes[index] = slot->shared_mesh();
     return slot;
   }
@@ -112,11 +113,22 @@ class ItemAdder {
     auto& slot = tessellated_[id];
     if (!slot) {
       const ir::Revolve& shape = scene_.shape(id);
-      slot = std::make_shared<MeshAccel>(
-          tessellate(revolve_of(shape), static_cast<std::uint32_t>(shape.steps)), pool_,
-          options_.precision);
+      slot = kept_accel(std::make_shared<const TriangleMesh>(
+                            tessellate(revolve_of(shape), static_cast<std::uint32_t>(shape.steps))),
+                        {});
     }
     return slot;
+  }
+  std::shared_ptr<const MeshAccel> kept_accel(const std::shared_ptr<const TriangleMesh>& mesh,
+                                              const Hash128& mesh_key) {
+    if (options_.trees == nullptr) return made_accel(mesh, mesh_key);
+    const Hash128 key = TreeStore::key_of(*mesh, options_.precision);
+    auto accel = options_.trees->find(key);
+    if (accel == nullptr) {
+      accel = made_accel(mesh, mesh_key);
+      options_.trees->keep(key, accel);
+    }
+    return accel;
   }
   std::shared_ptr<const MeshAccel> made_accel(const std::shared_ptr<const TriangleMesh>& mesh,
                                               const Hash128& mesh_key) {

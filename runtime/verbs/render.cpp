@@ -103,9 +103,8 @@ class RenderRun {
     if (!scene) return session_.finish(environment_);
     const auto settings = settings_of(options_, *scene, environment_);
     if (!settings) return ExitCode::usage;
-    const backend::PreparedPtr prepared =
-        backend::prepare(*scene, session_.files(), pool_, session_.sink(), cache(),
-                         options_.limits);
+    const backend::PreparedPtr prepared = backend::prepare(
+        *scene, session_.files(), pool_, session_.sink(), cache(), options_.limits);
     clock_.finish("prepare");
     if (!prepared) return session_.finish(environment_);
     if (!outputs_are_no_inputs()) return refuse_output();
@@ -142,9 +141,11 @@ class RenderRun {
 
   ExitCode render(const ir::Scene& scene, const ir::RenderSettings& settings,
                   const backend::PreparedScene& prepared, backend::ImageFormat format) {
-    const backend::RenderScenePtr built = backend::build(
-        prepared, pool_,
-        {cache(), options_.precision, options_.target.value_or(backend::best_target())});
+    const backend::RenderScenePtr built =
+        backend::build(prepared, pool_,
+                       {.cache = cache(),
+                        .precision = options_.precision,
+                        .target = options_.target.value_or(backend::best_target())});
     clock_.finish("build");
     signals_.allow_graceful_stop();
     ProgressPrinter progress(progress_, environment_);

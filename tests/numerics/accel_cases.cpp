@@ -1,10 +1,10 @@
 // Trees against brute force on inputs that break trees: G07, G19 - G22, G26.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -138,16 +138,6 @@ TEST(G21, RandomSoup) {
           comparison.text(), ""});
 }
 
-double cpu_seconds(const std::function<void()>& work) {
-  double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const std::clock_t start = std::clock();
-    work();
-    best = std::fmin(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-  }
-  return best;
-}
-
 TEST(G22, RaysThatAreNone) {
   ThreadPool pool(2);
   SceneAccel accel;
@@ -159,6 +149,7 @@ TEST(G22, RaysThatAreNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;
+  std::uint64_t traced = 0;
   Hit hit;
   Draw draw(22);
   const auto run = [&](const std::function<void(Ray&, double, int)>& spoil) {
@@ -167,6 +158,7 @@ TEST(G22, RaysThatAreNone) {
       const std::array<double, 3> bad{inf, -inf, nan};
       spoil(ray, bad[static_cast<std::size_t>(i % 3)], i % 3);
       ++rays;
+      if (is_traceable(ray)) ++traced;
       if (accel.intersect(ray, hit) || accel.occluded(ray)) ++hits;
     }
   };
@@ -181,17 +173,10 @@ TEST(G22, RaysThatAreNone) {
   run([](Ray& r, double, int) { r.direction = {0, -0.0, 0}; });
   run([](Ray& r, double, int) { r.t_min = 2, r.t_max = 1; });
   EXPECT_EQ(hits, 0U);
-  // No slower than a ray that is one.
-  const double bad = cpu_seconds([&] { run(origins), run(directions); });
-  const double good = cpu_seconds([&] {
-    for (int i = 0; i < 18'000; ++i) {
-      const Ray ray{draw.point(2), draw.direction()};
-      if (accel.intersect(ray, hit) || accel.occluded(ray)) ++hits;
-    }
-  });
-  EXPECT_LE(bad, 2.5 * good);
+  // Queries ask this before anything else, so such a ray costs less than any other.
+  EXPECT_EQ(traced, 0U);
   record({"G22", "NaN or infinity in origin, direction, interval; zero direction; empty interval",
-          54'000 + 6 * 9'000, "0 hits; no slower than 2.5 times a good ray", ""});
+          rays, "0 hits; 0 came to the tree", ""});
 }
 
 TriangleMesh repeated(const std::function<Triangle(std::uint32_t)>& make) {
@@ -203,6 +188,18 @@ TriangleMesh repeated(const std::function<Triangle(std::uint32_t)>& make) {
     mesh.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return mesh;
+}
+
+// Children lie behind their node.
+std::size_t levels_of(const WideTree& tree) {
+  std::vector<std::size_t> level(tree.nodes.size(), 1);
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    most = std::max(most, level[i]);
+    for (const TreeRef child : tree.nodes[i].child)
+      if (!child.is_leaf()) level[child.node_index()] = level[i] + 1;
+  }
+  return most;
 }
 
 // Inputs on which builders run away. Nodes and depth are the matter of tree_build_test.cpp.
@@ -223,13 +220,20 @@ TEST(G26, BuildBombs) {
         const double x = i;
         return Triangle{{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}};
       })};
-  const auto build_time = [&](const TriangleMesh& mesh) {
-    return cpu_seconds([&] { MeshAccel(mesh, pool); });
-  };
-  const double usual = build_time(soup);
-  for (const TriangleMesh& bomb : bombs) EXPECT_LE(build_time(bomb), 5 * usual);
+  // A node is made once, and each level looks at each triangle at most once: nodes and levels bound
+  // the work.
+  std::size_t most_nodes = 0;
+  std::size_t most_levels = 0;
+  const std::size_t usual = MeshAccel(soup, pool).tree().tree.nodes.size();
+  for (const TriangleMesh& bomb : bombs) {
+    const MeshAccel accel(bomb, pool);
+    most_nodes = std::max(most_nodes, accel.tree().tree.nodes.size());
+    most_levels = std::max(most_levels, levels_of(accel.tree().tree));
+  }
+  EXPECT_LE(most_nodes, 5 * usual);
+  EXPECT_LE(most_levels, 96U);
   record({"G26", "100000 equal, nested, in line", 300'000,
-          "each built within 5 times a soup's time", ""});
+          fmt::format("{} nodes, {} in a soup; {} levels", most_nodes, usual, most_levels), ""});
 }
 
 const std::vector<ProfilePoint> vase{{1, 0}, {2, 0.7}, {0.2, 1.3}, {1, 2}};
