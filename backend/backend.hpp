@@ -1,12 +1,14 @@
 // The back end's entrances: prepare (read assets, examine geometry), build (accelerators), render.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -90,8 +92,21 @@ struct Picture {
   bool complete = true;               // false after a stop request
   std::uint64_t dropped_samples = 0;  // not finite: counted, never averaged
   std::uint64_t rays = 0;
+  // How often code ran that only this effect calls for; 0 for effects that are not simulated.
+  std::array<std::uint64_t, ir::effect_count> effect_runs{};
+  std::uint64_t forgotten_media = 0;  // bodies in more than eight others: the outermost was dropped
   ErrorEstimate error;
 };
+
+// Which of the compiled kernels renders a picture simulated with `effects`: the smallest that holds
+// them, or the one that holds all. No choice changes a bit of the picture.
+enum class KernelChoice : std::uint8_t { smallest, full };
+struct KernelSummary {
+  std::string_view name;
+  ir::EffectSet surplus;  // compiled in beyond `effects`; switched off while it runs
+};
+[[nodiscard]] KernelSummary kernel_for(ir::Method method, const ir::EffectSet& effects,
+                                       KernelChoice choice = KernelChoice::smallest);
 
 // Renders with `settings` (the scene's, or the scene's with the command line's changes). The bytes
 // of the picture depend on scene, settings and build only: not on threads, tiles or time. After a
@@ -103,7 +118,8 @@ struct Picture {
 // picture to depend on no others, and for pricing an effect.
 [[nodiscard]] Picture render(const RenderScene& scene, const ir::RenderSettings& settings,
                              const ir::EffectSet& effects, ThreadPool& pool, std::stop_token stop,
-                             const ProgressFunction& progress);
+                             const ProgressFunction& progress,
+                             KernelChoice kernel = KernelChoice::smallest);
 
 // Bytes of the picture as a file. 8-bit formats apply exposure and tonemap (film .course:
 // truncation without a curve); EXR holds linear float32.

@@ -57,12 +57,12 @@ class Renderer {
  public:
   Renderer(const RenderScene& scene, const ir::RenderSettings& settings,
            const ir::EffectSet& effects, ThreadPool& pool, std::stop_token stop,
-           const ProgressFunction& progress)
+           const ProgressFunction& progress, KernelChoice kernel)
       : settings_(settings),
         stop_(std::move(stop)),
         start_(Clock::now()),
         progress_(progress, start_),
-        session_(scene, settings, effects, pool),
+        session_(scene, settings, effects, pool, kernel),
         cap_(sample_cap(settings)) {}
 
   Picture run() {
@@ -119,9 +119,9 @@ Picture render(const RenderScene& scene, const ir::RenderSettings& settings, Thr
 
 Picture render(const RenderScene& scene, const ir::RenderSettings& settings,
                const ir::EffectSet& effects, ThreadPool& pool, std::stop_token stop,
-               const ProgressFunction& progress) {
+               const ProgressFunction& progress, KernelChoice kernel) {
   SCENEC_ASSERT(settings.camera.valid());
-  return Renderer(scene, settings, effects, pool, std::move(stop), progress).run();
+  return Renderer(scene, settings, effects, pool, std::move(stop), progress, kernel).run();
 }
 
 }  // namespace scenec::backend

@@ -34,12 +34,12 @@ ir::RenderSettings coarse_settings(ir::RenderSettings settings, std::int64_t ste
 
 struct RenderSession::Impl {
   Impl(const RenderScene& of_scene, const ir::RenderSettings& with_settings,
-       const ir::EffectSet& with_effects, ThreadPool& on_pool)
+       const ir::EffectSet& with_effects, ThreadPool& on_pool, KernelChoice choice)
       : scene(of_scene),
         settings(with_settings),
         effects(with_effects),
         pool(on_pool),
-        kernel(scene, settings, effects),
+        kernel(scene, settings, effects, choice),
         film(settings, Film::Squares::yes),
         workers(pool.size()),
         tiles_x((film.region_width() + tile_side - 1) / tile_side),
@@ -64,8 +64,8 @@ struct RenderSession::Impl {
 };
 
 RenderSession::RenderSession(const RenderScene& scene, const ir::RenderSettings& settings,
-                             const ir::EffectSet& effects, ThreadPool& pool)
-    : impl_(std::make_unique<Impl>(scene, settings, effects, pool)) {
+                             const ir::EffectSet& effects, ThreadPool& pool, KernelChoice kernel)
+    : impl_(std::make_unique<Impl>(scene, settings, effects, pool, kernel)) {
   SCENEC_ASSERT(settings.camera.valid());
 }
 RenderSession::~RenderSession() = default;
@@ -105,6 +105,11 @@ std::int64_t RenderSession::samples() const {
 Picture RenderSession::picture() const {
   Picture picture = impl_->film.picture();
   picture.rays = rays();
+  for (const KernelWorker& worker : impl_->workers) {
+    picture.forgotten_media += worker.rays.forgotten_media;
+    for (std::size_t i = 0; i < ir::effect_count; ++i)
+      picture.effect_runs[i] += worker.rays.effects[i];
+  }
   picture.error = error();
   return picture;
 }

@@ -20,7 +20,8 @@ class RenderSession {
   // Scene and pool must outlive the session. `samples` and `stop` of the settings are not looked
   // at: whoever calls advance() decides.
   RenderSession(const RenderScene& scene, const ir::RenderSettings& settings,
-                const ir::EffectSet& effects, ThreadPool& pool);
+                const ir::EffectSet& effects, ThreadPool& pool,
+                KernelChoice kernel = KernelChoice::smallest);
   ~RenderSession();
   RenderSession(RenderSession&&) noexcept;
   RenderSession& operator=(RenderSession&&) noexcept;

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "backend/backend.hpp"
+
 namespace scenec::runtime {
 
 namespace {
@@ -43,6 +45,14 @@ std::vector<Step> chain_of(const ir::Scene& scene, ir::OriginId origin, const So
   return steps;
 }
 
+std::vector<std::string_view> names_of(const ir::EffectSet& set) {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < ir::effect_count; ++i)
+    if (set.has(static_cast<ir::Effect>(i)))
+      names.push_back(ir::name_of(static_cast<ir::Effect>(i)));
+  return names;
+}
+
 std::string chain_text(const std::vector<Step>& steps) {
   std::string text;
   for (const Step& step : steps) {
@@ -65,6 +75,17 @@ std::string paragraph(const ir::Scene& scene, ir::Effect effect, const ir::Effec
   return text;
 }
 
+// What the kernel could do beyond what it is asked for.
+std::string surplus_text(const ir::EffectSet& surplus) {
+  if (surplus.size() == 0) return "nothing more is compiled into it";
+  std::string names;
+  for (const std::string_view name : names_of(surplus)) {
+    if (!names.empty()) names += ", ";
+    names += name;
+  }
+  return "compiled with " + names + " too, switched off here";
+}
+
 template <class F>
 void for_each_finding(const ir::EffectReport& report, F&& f) {
   for (std::size_t i = 0; i < ir::effect_count; ++i)
@@ -75,9 +96,10 @@ void for_each_finding(const ir::EffectReport& report, F&& f) {
 
 std::string effects_text(const ir::Scene& scene, const ir::RenderSettings& settings,
                          const ir::EffectReport& report, const SourceMap& sources) {
-  std::string text =
-      fmt::format("method `.{}`: {} of {} effects are simulated\n\n", method_name(settings),
-                  report.simulated().size(), ir::effect_count);
+  const backend::KernelSummary kernel = backend::kernel_for(settings.method, report.simulated());
+  std::string text = fmt::format(
+      "method `.{}`: {} of {} effects are simulated\nkernel `{}`: {}\n\n", method_name(settings),
+      report.simulated().size(), ir::effect_count, kernel.name, surplus_text(kernel.surplus));
   for (const State wanted : {State::simulated, State::switched_off, State::absent}) {
     for_each_finding(report, [&](ir::Effect effect, const ir::EffectFinding& finding) {
       if (state_of(finding) == wanted) text += paragraph(scene, effect, finding, sources);
@@ -98,7 +120,11 @@ std::string effects_dump(const ir::EffectReport& report) {
 
 std::string effects_json(const ir::Scene& scene, const ir::RenderSettings& settings,
                          const ir::EffectReport& report, const SourceMap& sources) {
-  Json json{{"version", 1}, {"method", method_name(settings)}, {"effects", Json::array()}};
+  const backend::KernelSummary kernel = backend::kernel_for(settings.method, report.simulated());
+  Json json{{"version", 1},
+            {"method", method_name(settings)},
+            {"kernel", {{"name", kernel.name}, {"surplus", names_of(kernel.surplus)}}},
+            {"effects", Json::array()}};
   for_each_finding(report, [&](ir::Effect effect, const ir::EffectFinding& finding) {
     Json row{{"name", ir::name_of(effect)},      {"doc", ir::doc_of(effect)},
              {"called_for", finding.called_for}, {"switched_off", finding.switched_off},

@@ -166,6 +166,14 @@ constexpr std::array option_table{
     OptionRow{"--target", "NAME",
               "auto (default), baseline, sse4, avx2 or avx512: the same picture", render_only,
               store_target},
+    OptionRow{"--effects", "NAME", "found (default) or all: the same picture, slower", render_only,
+              [](Options& o, Text v) {
+                constexpr std::array<Text, 2> names{"found", "all"};
+                std::optional<SimulatedEffects> effects;
+                const Problem problem = store_choice<SimulatedEffects>(effects, v, names);
+                o.effects = effects.value_or(o.effects);
+                return problem;
+              }},
     OptionRow{"--stamp", "", "write date, host, threads and paths into the picture", render_only,
               [](Options& o, Text) -> Problem {
                 o.stamp = true;

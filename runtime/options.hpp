@@ -29,6 +29,9 @@ enum class DumpStage : std::uint8_t { tree, ast, ir, effects };
 enum class DiagnosticsForm : std::uint8_t { text, json, sarif };
 enum class StatsForm : std::uint8_t { none, table, json };
 
+// What a picture is simulated with: all is for pricing what the analysis saves.
+enum class SimulatedEffects : std::uint8_t { found, all };
+
 struct Options {
   Verb verb = Verb::render;
   std::vector<std::string> operands;
@@ -49,11 +52,12 @@ struct Options {
   std::optional<std::int64_t> frame;       // the one of `frames` that is being made
   std::optional<grammar::Dialect> dialect;
   bool half = false;
+  SimulatedEffects effects = SimulatedEffects::found;
   backend::Precision precision = backend::Precision::mixed;
 
   // What does not.
   std::optional<backend::Target> target;  // the best of this machine
-  std::string root;  // empty: where the scene lies (runtime/root.hpp)
+  std::string root;                       // empty: where the scene lies (runtime/root.hpp)
   bool strict_links = false;
   Limits limits;
   std::string cache;  // `off` or a directory; empty: runtime/cache.hpp decides

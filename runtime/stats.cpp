@@ -62,6 +62,9 @@ std::string stats_table(const RunStats& stats) {
   text += fmt::format("{:<18}{:>12}\n", "rays", stats.rays);
   text += fmt::format("{:<18}{:>12.3f} M/s\n", "ray rate",
                       per_second(static_cast<double>(stats.rays), rendering) * 1e-6);
+  text += fmt::format("{:<18}{:>12}\n", "kernel", stats.kernel);
+  for (const auto& [effect, runs] : stats.effect_runs)
+    text += fmt::format("  {:<16}{:>12}\n", effect, runs);
   if (stats.dropped_samples > 0) {
     text += fmt::format("{:<18}{:>12}\n", "dropped samples", stats.dropped_samples);
   }
@@ -77,6 +80,9 @@ std::string stats_json(const RunStats& stats) {
   json["samples_per_second"] = per_second(sample_count(stats), rendering);
   json["rays"] = stats.rays;
   json["rays_per_second"] = per_second(static_cast<double>(stats.rays), rendering);
+  json["kernel"] = stats.kernel;
+  json["effect_runs"] = nlohmann::ordered_json::object();
+  for (const auto& [effect, runs] : stats.effect_runs) json["effect_runs"][effect] = runs;
   json["dropped_samples"] = stats.dropped_samples;
   if (stats.cache) {
     json["cache"] = {{"hits", stats.cache->hits},

@@ -16,8 +16,10 @@ namespace scenec::runtime {
 
 struct RunStats {
   std::vector<std::pair<std::string, double>> phases;  // name, seconds
+  std::string kernel;                                  // that rendered
   std::uint64_t rays = 0;
-  std::int64_t samples = 0;  // a pixel
+  std::vector<std::pair<std::string, std::uint64_t>> effect_runs;  // those that ran
+  std::int64_t samples = 0;                                        // a pixel
   std::int64_t pixels = 0;
   std::uint64_t dropped_samples = 0;
   std::optional<ContentCacheCounts> cache;  // nullopt: nothing is kept

@@ -262,6 +262,7 @@ void SceneAccel::build(ThreadPool& pool, Target target) {
   d.items.clear();
   d.items.reserve(built.ids.size());
   for (const std::uint32_t i : built.ids) d.items.push_back(bounded[i]);
+  d.flat = flat_items_of(d);
 }
 
 Bounds3 SceneAccel::bounds() const {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "backend/accel/flat-inl.hpp"
 #include "backend/accel/scene_data.hpp"
 #include "backend/accel/traverse-inl.hpp"
 #include "base/assert.hpp"
@@ -39,6 +40,8 @@ class Query {
 
   // True when a search for any hit may stop.
   bool trace(const World& world, const Ray& ray) {
+    if (world.flat.used && walk_ == Walk::tree && FlatItems::takes(ray))
+      return trace_flat(world, ray);
     for (const PlacedItem& item : world.unbounded)
       if (trace_item(world, item, ray)) return true;
     if (world.tree.empty) return false;
@@ -89,6 +92,65 @@ class Query {
     }
     --path_.size;
     return done;
+  }
+
+  bool trace_flat(const World& world, const Ray& ray) {
+    Nearest nearest{best_.t, Hit::none, 0};
+    FlatTest test(ray);
+    const FlatItems& flat = world.flat;
+    const bool any = test_flat(world, test, flat.planes, nearest) ||
+                     test_flat(world, test, flat.disks, nearest) ||
+                     test_flat(world, test, flat.spheres, nearest);
+    if (!any && !flat.quads.empty()) {
+      test.prepare_quads(ray);
+      test_flat(world, test, flat.quads, nearest);
+    }
+    if (nearest.number == Hit::none) return false;
+    // The rest of the hit; t has the same bits.
+    const PlacedItem& item = world.flat_item(nearest.number);
+    path_.steps[path_.size++] = {&world, &item};
+    Ray local = ray;
+    local.t_max = best_.t;
+    ShapeHit hit;
+    bool stop = false;
+    if constexpr (want == Want::any) {
+      hit.t = nearest.t;
+      stop = accept(hit);
+    } else if (intersect_shape(world, item, local, hit) && improves(hit)) {
+      stop = accept(hit);
+    }
+    --path_.size;
+    return stop;
+  }
+
+  struct Nearest {
+    double t;
+    std::uint32_t number;  // of the flat item
+    std::uint32_t item;    // its number to the caller
+  };
+
+  // True when a search for any hit may stop.
+  template <class Block>
+  HWY_INLINE bool test_flat(const World& world, const FlatTest& test,
+                            const std::vector<Block>& blocks, Nearest& nearest) {
+    alignas(32) double ts[flat_width];
+    for (const Block& block : blocks) {
+      for (std::size_t at = 0; at < flat_width; at += triangle_lanes) {
+        std::uint32_t bits = test(block, at, nearest.t, ts);
+        while (bits != 0) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+          bits &= bits - 1;
+          const std::uint32_t number = block.item[at + lane];
+          const std::uint32_t item = world.flat_item(number).item;
+          const bool nearer = nearest.number == Hit::none || ts[lane] < nearest.t ||
+                              (ts[lane] == nearest.t && item < nearest.item);
+          if (!nearer) continue;
+          nearest = {ts[lane], number, item};
+          if constexpr (want == Want::any) return true;
+        }
+      }
+    }
+    return false;
   }
 
   bool trace_shape(const World& world, const PlacedItem& item, Ray ray) {

@@ -9,20 +9,20 @@
 namespace scenec::backend {
 namespace {
 
-std::array<Point3, 4> corners(const Quad& quad) {
-  return {quad.corner, quad.corner + quad.edge_u, (quad.corner + quad.edge_u) + quad.edge_v,
-          quad.corner + quad.edge_v};
-}
-
 double edge_function(const RayShear::Sheared& a, const RayShear::Sheared& b) {
   return a.x * b.y - a.y * b.x;
 }
 
 }  // namespace
 
+std::array<Point3, 4> corners_of(const Quad& quad) {
+  return {quad.corner, quad.corner + quad.edge_u, (quad.corner + quad.edge_u) + quad.edge_v,
+          quad.corner + quad.edge_v};
+}
+
 bool intersect(const Quad& quad, const Ray& ray, ShapeHit& out) {
   const RayShear shear(ray);
-  const std::array<Point3, 4> p = corners(quad);
+  const std::array<Point3, 4> p = corners_of(quad);
   const RayShear::Sheared a = shear.of(p[0]);
   const RayShear::Sheared b = shear.of(p[1]);
   const RayShear::Sheared c = shear.of(p[2]);
@@ -47,7 +47,7 @@ bool intersect(const Quad& quad, const Ray& ray, ShapeHit& out) {
 
 Bounds3 bounds(const Quad& quad) {
   Bounds3 b;
-  for (const Point3& p : corners(quad)) b.grow(p);
+  for (const Point3& p : corners_of(quad)) b.grow(p);
   return outward(b);
 }
 

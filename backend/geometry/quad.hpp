@@ -10,6 +10,8 @@
 //             tests/unit/backend/geometry/planar_test.cpp.
 #pragma once
 
+#include <array>
+
 #include "backend/geometry/kernel.hpp"
 
 namespace scenec::backend {
@@ -21,6 +23,8 @@ struct Quad {
 };
 
 [[nodiscard]] bool intersect(const Quad& quad, const Ray& ray, ShapeHit& out);
+// In order round it.
+[[nodiscard]] std::array<Point3, 4> corners_of(const Quad& quad);
 [[nodiscard]] Bounds3 bounds(const Quad& quad);
 // u, v in [0, 1] along the edges.
 [[nodiscard]] Surface surface(const Quad& quad, const Ray& ray, const ShapeHit& hit);

@@ -76,8 +76,9 @@ ir::EffectSet set_of(EffectMask mask) {
   return set;
 }
 
-const KernelInfo& kernel_for(ir::Method method, const ir::EffectSet& effects, KernelChoice choice) {
-  return choose(method, mask_of(effects), choice).info;
+KernelSummary kernel_for(ir::Method method, const ir::EffectSet& effects, KernelChoice choice) {
+  const KernelInfo& info = choose(method, mask_of(effects), choice).info;
+  return {info.name, set_of(info.mask).without(effects)};
 }
 
 TileKernel::TileKernel(const RenderScene& scene, const ir::RenderSettings& settings,

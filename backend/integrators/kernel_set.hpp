@@ -10,6 +10,7 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "backend/backend.hpp"
 #include "ir/effects.hpp"
 
 namespace scenec::backend {
@@ -56,8 +57,4 @@ struct KernelInfo {
   std::string_view name;
   EffectMask mask = 0;
 };
-enum class KernelChoice : std::uint8_t { smallest, full };
-[[nodiscard]] const KernelInfo& kernel_for(ir::Method method, const ir::EffectSet& effects,
-                                           KernelChoice choice = KernelChoice::smallest);
-
 }  // namespace scenec::backend

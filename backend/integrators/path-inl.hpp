@@ -17,6 +17,17 @@ namespace scenec::backend {
   const double a2 = a * a;
   return a2 / (a2 + b * b);
 }
+// The weight of light found by aiming at it, and by chance, from the two densities.
+[[nodiscard]] inline double weight_of_aiming(LightFinding finding, double aimed, double by_chance) {
+  if (finding == LightFinding::both) [[likely]]
+    return power_heuristic(aimed, by_chance);
+  return finding == LightFinding::aiming ? 1 : 0;
+}
+[[nodiscard]] inline double weight_of_chance(LightFinding finding, double by_chance, double aimed) {
+  if (finding == LightFinding::both) [[likely]]
+    return power_heuristic(by_chance, aimed);
+  return finding == LightFinding::aiming && aimed > 0 ? 0 : 1;
+}
 
 template <EffectMask compiled>
 class PathTracer {
@@ -110,7 +121,8 @@ class PathTracer {
       const std::size_t light = lights.first_environment() + i;
       double weight = 1;
       if (!specular_ && !lights.is_constant_environment(light))
-        weight = power_heuristic(scatter_pdf_, chosen(light) * lights.environments[i].pdf(d));
+        weight = weight_of_chance(lights.finding, scatter_pdf_,
+                                  chosen(light) * lights.environments[i].pdf(d));
       radiance_ += throughput_ * lights.environments[i].radiance(d) * weight;
     }
   }
@@ -127,7 +139,8 @@ class PathTracer {
         const LightTable& lights = scene_.lights;
         const double pdf = pdf_emitter(lights.emitters[emitter], scatter_place_.point, hit.point,
                                        hit.geometric_normal);
-        weight = power_heuristic(scatter_pdf_, chosen(lights.first_emitter() + emitter) * pdf);
+        weight = weight_of_chance(lights.finding, scatter_pdf_,
+                                  chosen(lights.first_emitter() + emitter) * pdf);
       }
     }
     radiance_ += throughput_ * emitted * weight;
@@ -139,8 +152,8 @@ class PathTracer {
     if (scattered_) tracer_.count(ir::Effect::interreflection);
     if (!with<ir::Effect::many_lights>()) {
       // Without a choice among lights every one is asked.
-      const auto weight = [](const LightSample& light, double bsdf_pdf) {
-        return light.delta ? 1.0 : power_heuristic(light.pdf, bsdf_pdf);
+      const auto weight = [&](const LightSample& light, double bsdf_pdf) {
+        return light.delta ? 1.0 : weight_of_aiming(lights.finding, light.pdf, bsdf_pdf);
       };
       for (std::size_t light = 0; light < lights.size(); ++light) {
         if (!lights.can_be_drawn(light)) continue;
@@ -153,7 +166,9 @@ class PathTracer {
     const LightTable::Choice choice = lights.choose(u, lit_place(hit, surface, normal));
     if (!(choice.probability > 0)) return;
     const auto weight = [&](const LightSample& light, double bsdf_pdf) {
-      return light.delta ? 1.0 : power_heuristic(choice.probability * light.pdf, bsdf_pdf);
+      return light.delta
+                 ? 1.0
+                 : weight_of_aiming(lights.finding, choice.probability * light.pdf, bsdf_pdf);
     };
     radiance_ += throughput_ *
                  tracer_.direct(hit, surface, choice.light, depth_, sampler_, weight) *

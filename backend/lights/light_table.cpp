@@ -63,7 +63,7 @@ double spot_share(const DeltaLight& light, const Vector3& travel) {
   return t * t * (3 - 2 * t);
 }
 
-void LightTable::finish(double scene_radius) {
+void LightTable::finish(double scene_radius, LightSelection selection) {
   const double disk = pi * scene_radius * scene_radius;
   power_.clear();
   for (const DeltaLight& l : deltas) {
@@ -88,27 +88,69 @@ void LightTable::finish(double scene_radius) {
     if (!(p > 0) || !std::isfinite(p)) p = 0;
     sum += p;
   }
+  for (double& p : power_) p = sum > 0 ? p / sum : 0;
+  leaf_.assign(power_.size(), no_leaf);
+  tree_ = {};
+  if (selection == LightSelection::tree) build_tree();
   cumulative_.clear();
   double running = 0;
-  for (double& p : power_) {
-    p = sum > 0 ? p / sum : 0;
-    running += p;
+  for (std::size_t i = 0; i < power_.size(); ++i) {
+    running += leaf_[i] == no_leaf ? power_[i] : 0;
     cumulative_.push_back(running);
   }
+  tree_share_ = tree_.empty() ? 0 : running > 0 ? 0.5 : 1;
 }
 
-double LightTable::probability(std::size_t light, const LitPlace&) const {
-  return power_[light];
+void LightTable::build_tree() {
+  std::vector<LightTree::Leaf> leaves;
+  const auto add = [&](std::size_t light, const LightCluster& cluster) {
+    if (!can_be_drawn(light) || !cluster.box.finite()) return;
+    leaf_[light] = static_cast<std::uint32_t>(leaves.size());
+    leaves.push_back({cluster, static_cast<std::uint32_t>(light)});
+  };
+  for (std::size_t i = 0; i < deltas.size(); ++i) {
+    const DeltaLight& l = deltas[i];
+    if (l.kind == DeltaLight::Kind::directional || !l.inverse_square) continue;
+    LightCluster c;
+    c.box.grow(l.position);
+    c.power = 4 * pi * luminance(l.value);
+    if (l.kind == DeltaLight::Kind::spot) {
+      c.axis = l.direction.vector();
+      c.cos_spread = l.cos_full;
+      // Beyond the full cone, up to the edge: the cosine of the difference.
+      c.cos_fall = cos(acos(l.cos_edge) - acos(l.cos_full));
+    }
+    add(i, c);
+  }
+  for (std::size_t i = 0; i < emitters.size(); ++i)
+    add(first_emitter() + i, cluster_of(emitters[i]));
+  tree_ = LightTree(std::move(leaves));
 }
 
-LightTable::Choice LightTable::choose(double u, const LitPlace&) const {
-  if (cumulative_.empty() || !(cumulative_.back() > 0)) return {};
+double LightTable::probability(std::size_t light, const LitPlace& place) const {
+  if (leaf_[light] != no_leaf) return tree_share_ * tree_.probability(leaf_[light], place);
+  return cumulative_.back() > 0 ? (1 - tree_share_) * power_[light] / cumulative_.back() : 0;
+}
+
+LightTable::Choice LightTable::choose(double u, const LitPlace& place) const {
+  if (power_.empty()) return {};
+  if (u < tree_share_) {
+    const LightTree::Choice c = tree_.choose(smaller(u / tree_share_, 1 - 0x1p-53), place);
+    return {c.light, tree_share_ * c.probability};
+  }
+  Choice c = choose_by_power((u - tree_share_) / (1 - tree_share_));
+  c.probability *= 1 - tree_share_;
+  return c;
+}
+
+LightTable::Choice LightTable::choose_by_power(double u) const {
+  if (!(cumulative_.back() > 0)) return {};
   const double scaled = u * cumulative_.back();
   const auto above = std::upper_bound(cumulative_.begin(), cumulative_.end(), scaled);
   auto light = static_cast<std::size_t>(above - cumulative_.begin());
   // Rounding of u * sum can reach the sum itself.
-  while (light >= power_.size() || power_[light] == 0) --light;
-  return {light, power_[light]};
+  while (light >= power_.size() || power_[light] == 0 || leaf_[light] != no_leaf) --light;
+  return {light, power_[light] / cumulative_.back()};
 }
 
 bool LightTable::sample_delta(const DeltaLight& light, const Point3& from, LightSample& s) {

@@ -1,9 +1,11 @@
-// All lights of a scene behind one choice: a light is drawn with a probability in proportion to its
-// power, then a direction to it.
+// All lights of a scene behind one choice: a light is drawn by what it can give to the place that
+// is lit, then a direction to it.
 //
 // Domain:     any number of lights; one without power is never drawn (P13).
-// Method:     cumulative table, binary search.
-// Error:      probabilities sum to 1 within n u.
+// Method:     lights at finite places: a tree (light_tree.hpp). Far ones, and those that do not get
+//             weaker on their way: by power, from a cumulative table. Where there are both kinds,
+//             each is asked half the time.
+// Error:      probabilities sum to at most 1 within n u (light_tree.hpp).
 // Degenerate: no lights, or no power: nothing is drawn. A point light at the reference point itself
 //             gives no sample (P09). Constant environments are never drawn, as every direction
 //             finds them; `sample` serves them when asked by number.
@@ -15,6 +17,7 @@
 
 #include "backend/lights/emitter.hpp"
 #include "backend/lights/environment.hpp"
+#include "backend/lights/light_tree.hpp"
 #include "ir/lights.hpp"
 
 namespace scenec::backend {
@@ -46,20 +49,22 @@ struct LightSample {
   const Emitter* emitter = nullptr;  // that surface
 };
 
-// A place that is to be lit.
-struct LitPlace {
-  Point3 point;
-  Vector3 normal{0, 0, 0};  // of the side light can come from; zero: from all round
-};
+// How a light is chosen: by what the tree says it can give to the place, or by its power alone.
+enum class LightSelection : std::uint8_t { tree, power };
+
+// How `.path` finds lights that can both be aimed at and be met by chance. Each way alone has the
+// same mean, with more noise: for the tests that hold the two together.
+enum class LightFinding : std::uint8_t { both, aiming, chance };
 
 class LightTable {
  public:
   std::vector<DeltaLight> deltas;
   std::vector<Emitter> emitters;
   std::vector<Environment> environments;
+  LightFinding finding = LightFinding::both;
 
   // After the lists are filled: measures powers. `scene_radius`: of what can be lit.
-  void finish(double scene_radius);
+  void finish(double scene_radius, LightSelection selection = LightSelection::tree);
 
   [[nodiscard]] std::size_t size() const { return power_.size(); }
   [[nodiscard]] bool can_be_drawn(std::size_t light) const { return power_[light] > 0; }
@@ -86,8 +91,16 @@ class LightTable {
   [[nodiscard]] static bool sample_delta(const DeltaLight& light, const Point3& from,
                                          LightSample& out);
 
-  std::vector<double> power_;       // deltas, emitters, environments; in sum 1
-  std::vector<double> cumulative_;  // of it
+  static constexpr std::uint32_t no_leaf = 0xffffffff;
+
+  [[nodiscard]] Choice choose_by_power(double u) const;
+  void build_tree();
+
+  std::vector<double> power_;        // deltas, emitters, environments; in sum 1
+  std::vector<std::uint32_t> leaf_;  // in the tree; no_leaf: in the table
+  std::vector<double> cumulative_;   // power of those in the table
+  double tree_share_ = 0;            // probability of asking the tree
+  LightTree tree_;
   bool any_invisible_ = false;
 };
 

@@ -1,5 +1,6 @@
-// Indices of refraction of metals, as three bands (red, green, blue) of the measured spectra of
-// Johnson and Christy 1972 and Palik 1985 in the reduction that renderers commonly share.
+// Indices of refraction of metals as three bands (red, green, blue): approximate, after measured
+// spectra (Johnson and Christy 1972; Palik 1985 for the rest) in reductions that renderers commonly
+// share. Three bands cannot hold a spectrum: colours are right to a few hundredths of reflectance.
 #pragma once
 
 #include "backend/math/color.hpp"

@@ -149,8 +149,11 @@ class RenderRun {
     clock_.finish("build");
     signals_.allow_graceful_stop();
     ProgressPrinter progress(progress_, environment_);
+    ir::EffectSet effects = backend::find_effects(*built, settings).simulated();
+    if (options_.effects == SimulatedEffects::all) effects = ir::EffectSet::all();
+    stats_.kernel = backend::kernel_for(settings.method, effects).name;
     const backend::Picture picture =
-        backend::render(*built, settings, pool_, signals_.stop(),
+        backend::render(*built, settings, effects, pool_, signals_.stop(),
                         [&](const backend::Progress& done) { progress.update(done); });
     progress.finish();
     clock_.finish("render");
@@ -195,6 +198,11 @@ class RenderRun {
 
   std::optional<ExitCode> write_stats(const backend::Picture& picture) {
     stats_.rays = picture.rays;
+    for (std::size_t i = 0; i < ir::effect_count; ++i) {
+      if (picture.effect_runs[i] == 0) continue;
+      stats_.effect_runs.emplace_back(ir::name_of(static_cast<ir::Effect>(i)),
+                                      picture.effect_runs[i]);
+    }
     stats_.samples = picture.samples;
     stats_.pixels = std::int64_t{picture.width} * picture.height;
     stats_.dropped_samples = picture.dropped_samples;

@@ -54,6 +54,20 @@ TEST(Effects, WhatIsProvedAbsentCannotBeSeen) {
           backend::render(*built->render_scene, settings, ir::EffectSet::all(), pool, {}, {});
       EXPECT_TRUE(found.rgb == full.rgb)
           << path << " method " << static_cast<int>(method) << difference(found, full);
+      // The same effects by the kernel that could simulate all.
+      const backend::Picture by_full =
+          backend::render(*built->render_scene, settings, report.simulated(), pool, {}, {},
+                          backend::KernelChoice::full);
+      EXPECT_TRUE(found.rgb == by_full.rgb)
+          << path << " method " << static_cast<int>(method) << difference(found, by_full);
+      // What is not called for does not run (E01-E08).
+      for (std::size_t i = 0; i < ir::effect_count; ++i) {
+        if (report.findings[i].simulated()) continue;
+        EXPECT_EQ(found.effect_runs[i], 0u)
+            << path << " " << ir::name_of(static_cast<ir::Effect>(i));
+        EXPECT_EQ(by_full.effect_runs[i], 0u)
+            << path << " " << ir::name_of(static_cast<ir::Effect>(i));
+      }
       ++compared;
     }
   }

@@ -1,0 +1,125 @@
+#include <limits>
+
+#include "backend/accel/scene_data.hpp"
+
+namespace scenec::backend {
+namespace {
+
+void set(FlatPoint& to, std::size_t lane, double x, double y, double z) {
+  to[0][lane] = x;
+  to[1][lane] = y;
+  to[2][lane] = z;
+}
+void set(FlatPoint& to, std::size_t lane, const Point3& p) {
+  set(to, lane, p.x, p.y, p.z);
+}
+void set(FlatPoint& to, std::size_t lane, const Vector3& v) {
+  set(to, lane, v.x, v.y, v.z);
+}
+
+// The block with room for one more.
+template <class Block>
+Block& block_with_room(std::vector<Block>& blocks, std::size_t count) {
+  if (count % flat_width == 0) {
+    Block empty;
+    // Every member but the last is made of doubles.
+    auto* numbers = reinterpret_cast<double*>(&empty);
+    const std::size_t many = offsetof(Block, item) / sizeof(double);
+    for (std::size_t i = 0; i < many; ++i) numbers[i] = std::numeric_limits<double>::quiet_NaN();
+    empty.item = {};
+    blocks.push_back(empty);
+  }
+  return blocks.back();
+}
+
+class Flattener {
+ public:
+  explicit Flattener(const SceneAccel::Data& d) : d_(d) {}
+
+  FlatItems flatten() {
+    const std::size_t count = d_.items.size() + d_.unbounded.size();
+    if (count == 0 || count > FlatItems::most) return {};
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (!add(d_.flat_item(i), i)) return {};
+    out_.used = sane_;
+    return out_;
+  }
+
+ private:
+  bool add(const PlacedItem& item, std::uint32_t number) {
+    if (item.transform != SceneAccel::identity || item.option != ItemOption::plain) return false;
+    switch (item.kind) {
+      case ShapeKind::sphere:
+        add_sphere(d_.spheres[item.index], number);
+        return true;
+      case ShapeKind::quad:
+        add_quad(d_.quads[item.index], number);
+        return true;
+      case ShapeKind::disk:
+        add_disk(d_.disks[item.index], number);
+        return true;
+      case ShapeKind::plane:
+        add_plane(d_.planes[item.index], number);
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  void check(const Vector3& v) { sane_ = sane_ && max_abs(v) <= FlatItems::largest; }
+
+  void add_sphere(const Sphere& s, std::uint32_t number) {
+    const std::size_t lane = spheres_ % flat_width;
+    FlatSpheres& b = block_with_room(out_.spheres, spheres_++);
+    check(as_vector(s.center));
+    check({s.radius, 0, 0});
+    set(b.center, lane, s.center);
+    b.radius[lane] = s.radius;
+    b.item[lane] = number;
+  }
+  void add_quad(const Quad& q, std::uint32_t number) {
+    const std::size_t lane = quads_ % flat_width;
+    FlatQuads& b = block_with_room(out_.quads, quads_++);
+    const std::array<Point3, 4> corners = corners_of(q);
+    for (std::size_t k = 0; k < 4; ++k) {
+      check(as_vector(corners[k]));
+      set(b.corner[k], lane, corners[k]);
+    }
+    const Vector3 n = cross(q.edge_u, q.edge_v);
+    check(n);
+    set(b.normal, lane, n);
+    b.item[lane] = number;
+  }
+  void add_disk(const Disk& d, std::uint32_t number) {
+    const std::size_t lane = disks_ % flat_width;
+    FlatDisks& b = block_with_room(out_.disks, disks_++);
+    check(as_vector(d.center));
+    check({d.radius, 0, 0});
+    set(b.center, lane, d.center);
+    set(b.normal, lane, d.normal.vector());
+    b.radius[lane] = d.radius;
+    b.item[lane] = number;
+  }
+  void add_plane(const Plane& p, std::uint32_t number) {
+    const std::size_t lane = planes_ % flat_width;
+    FlatPlanes& b = block_with_room(out_.planes, planes_++);
+    check(as_vector(p.normal));
+    check({p.offset, 0, 0});
+    set(b.normal, lane, as_vector(p.normal));
+    b.offset[lane] = p.offset;
+    b.item[lane] = number;
+  }
+
+  const SceneAccel::Data& d_;
+  FlatItems out_;
+  bool sane_ = true;
+  std::size_t spheres_ = 0, quads_ = 0, disks_ = 0, planes_ = 0;
+};
+
+}  // namespace
+
+FlatItems flat_items_of(const SceneAccel::Data& data) {
+  return Flattener(data).flatten();
+}
+
+}  // namespace scenec::backend
