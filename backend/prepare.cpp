@@ -6,7 +6,9 @@
 
 #include "backend/backend.hpp"
 #include "backend/prepare_assets.hpp"
+#include "backend/scene_memory.hpp"
 #include "base/text.hpp"
+#include "ir/print.hpp"
 
 namespace scenec::backend {
 
@@ -146,6 +148,35 @@ class FileMeshes {
   std::vector<Made> made_;
 };
 
+// Other than for the cache of trees, normals count.
+Hash128 memory_key_of(const ir::Mesh& mesh, const Hash128& file_key) {
+  Hasher hasher;
+  hasher.add(std::string_view("mesh"));
+  hasher.add(key_of(mesh, file_key));
+  hasher.add(std::string_view(ir::value_text(mesh.normals)));
+  return hasher.result();
+}
+
+// Whether all meshes of the file have been kept; then it is not read.
+bool take_kept(const MeshGroup& group, const ir::Scene& scene, const Hash128& file_key,
+               const AssetSource& source, PreparedScene& prepared) {
+  if (source.memory == nullptr || file_key == Hash128{}) return false;
+  std::vector<MeshPtr> kept;
+  for (const std::size_t index : group.meshes) {
+    const Hash128 key = memory_key_of(mesh_at(scene, index), file_key);
+    kept.push_back(source.memory->find<TriangleMesh>(key));
+    if (!kept.back()) return false;
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const auto seen = kept.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(kept.begin(), seen, kept[i]) == seen) source.budget.take(memory_of(*kept[i]));
+    prepared.meshes[group.meshes[i]] = kept[i];
+    if (kept[i]->faces.size() >= smallest_cached_tree)
+      prepared.mesh_keys[group.meshes[i]] = key_of(mesh_at(scene, group.meshes[i]), file_key);
+  }
+  return true;
+}
+
 void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::vector<Span>& spans,
                    const AssetSource& source, PreparedScene& prepared, TaskReport& task) {
   if (!group.asset.valid()) {
@@ -157,10 +188,11 @@ void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::ve
     return;
   }
   const ir::Asset& asset = scene.assets[group.asset];
+  const Hash128 file_key = file_key_of(asset, source.limits);
+  if (take_kept(group, scene, file_key, source, prepared)) return;
   std::optional<MeshData> data = read_mesh(asset, source, task);
   if (!data) return;
   FileMeshes meshes(std::move(*data), asset, group.meshes.size() == 1, task);
-  const Hash128 file_key = file_key_of(asset, source.limits);
   for (const std::size_t index : group.meshes) {
     const ir::Mesh& mesh = mesh_at(scene, index);
     const std::size_t made_before = meshes.count();
@@ -169,6 +201,28 @@ void prepare_group(const MeshGroup& group, const ir::Scene& scene, const std::ve
     if (file_key != Hash128{} && prepared.meshes[index]->faces.size() >= smallest_cached_tree)
       prepared.mesh_keys[index] = key_of(mesh, file_key);
   }
+  if (source.memory == nullptr || file_key == Hash128{} || !task.diagnostics.empty()) return;
+  for (const std::size_t index : group.meshes) {
+    const MeshPtr& mesh = prepared.meshes[index];
+    source.memory->keep(memory_key_of(mesh_at(scene, index), file_key), mesh, memory_of(*mesh));
+  }
+}
+
+std::shared_ptr<const DecodedImage> kept_picture(const ir::Asset& asset, const AssetSource& source,
+                                                 TaskReport& task) {
+  if (source.memory == nullptr || asset.hash == Hash128{}) return read_picture(asset, source, task);
+  Hasher hasher;
+  hasher.add(std::string_view("picture"));
+  hasher.add(asset.hash);
+  hasher.add(std::string_view(extension_of(asset.path)));
+  const Hash128 key = hasher.result();
+  if (auto kept = source.memory->find<DecodedImage>(key)) {
+    source.budget.take(memory_of(*kept));
+    return kept;
+  }
+  auto picture = read_picture(asset, source, task);
+  if (picture && task.diagnostics.empty()) source.memory->keep(key, picture, memory_of(*picture));
+  return picture;
 }
 
 std::vector<ir::AssetId> images_of(const ir::Scene& scene) {
@@ -192,10 +246,13 @@ Diagnostic too_much_memory(const ir::Scene& scene, const Limits& limits) {
 
 }  // namespace
 
-PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
-                    DiagnosticSink& sink, ContentCache* cache, const Limits& limits) {
+namespace {
+
+PreparedPtr prepare_all(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
+                        DiagnosticSink& sink, ContentCache* cache, const Limits& limits,
+                        SceneMemory* memory) {
   MemoryBudget budget(limits.asset_memory);
-  const AssetSource source{files, cache, limits, budget};
+  const AssetSource source{files, cache, limits, budget, memory};
   PreparedPtr prepared(new PreparedScene{&scene, {}, {}, {}});
   prepared->meshes.resize(scene.table<ir::Mesh>().size());
   prepared->mesh_keys.resize(prepared->meshes.size());
@@ -210,7 +267,7 @@ PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
       prepare_group(groups[i], scene, spans, source, *prepared, reports[i]);
     } else {
       const ir::AssetId asset = images[i - groups.size()];
-      prepared->images[asset.value()] = read_picture(scene.assets[asset], source, reports[i]);
+      prepared->images[asset.value()] = kept_picture(scene.assets[asset], source, reports[i]);
     }
   });
   const std::size_t errors_before = sink.error_count();
@@ -224,6 +281,19 @@ PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
   check_items(scene, sink);
   check_supported(scene, sink);
   return sink.error_count() == errors_before ? std::move(prepared) : nullptr;
+}
+
+}  // namespace
+
+PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
+                    DiagnosticSink& sink, ContentCache* cache, const Limits& limits) {
+  return prepare_all(scene, files, pool, sink, cache, limits, nullptr);
+}
+
+PreparedPtr prepare(const ir::Scene& scene, FileSystem& files, ThreadPool& pool,
+                    DiagnosticSink& sink, ContentCache* cache, const Limits& limits,
+                    SceneMemory& memory) {
+  return prepare_all(scene, files, pool, sink, cache, limits, &memory);
 }
 
 }  // namespace scenec::backend

@@ -17,6 +17,8 @@
 
 namespace scenec::backend {
 
+class SceneMemory;
+
 // Counts what decoded assets take. Whether they take too much does not depend on the order in which
 // they come: as long as they do not, none is left out.
 class MemoryBudget {
@@ -36,6 +38,7 @@ struct AssetSource {
   ContentCache* cache;  // null: none
   const Limits& limits;
   MemoryBudget& budget;
+  SceneMemory* memory = nullptr;
 };
 
 // Diagnostics of one task; reported afterwards in the order of the tasks.

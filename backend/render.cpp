@@ -6,28 +6,12 @@
 
 #include "backend/backend.hpp"
 #include "backend/render_session.hpp"
+#include "backend/stop_rule.hpp"
 
 namespace scenec::backend {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr std::int64_t most_samples = 1'048'576;
-// `stop.error` needs this many samples, and two rounds that agree, before it is believed.
-constexpr std::int64_t samples_before_error = 64;
-
-std::int64_t sample_cap(const ir::RenderSettings& s) {
-  if (s.samples) return *s.samples;
-  if (s.stop.samples) return *s.stop.samples;
-  if (s.stop.error || s.stop.time) return most_samples;
-  if (s.film == ir::FilmKind::course) return 1;
-  return s.method == ir::Method::path ? 64 : 16;
-}
-
-// Rounds grow by a quarter of what is there, so that stopping at a round's end costs little.
-std::int64_t next_round(std::int64_t done, std::int64_t cap) {
-  return std::min(cap - done, std::max<std::int64_t>(1, done / 4));
-}
 
 // Tells the caller how far the picture is, at most every few milliseconds.
 class ProgressReporter {
@@ -63,13 +47,13 @@ class Renderer {
         start_(Clock::now()),
         progress_(progress, start_),
         session_(scene, settings, effects, pool, kernel),
-        cap_(sample_cap(settings)) {}
+        rule_(settings) {}
 
   Picture run() {
     bool complete = true;
-    while (complete && session_.samples() < cap_ && !good_enough()) {
+    while (complete && !good_enough()) {
       const double first = static_cast<double>(session_.samples());
-      const std::int64_t count = next_round(session_.samples(), cap_);
+      const std::int64_t count = rule_.next_round(session_.samples());
       complete = session_.advance(count, stop_, [&](double part) {
         progress_.update(fraction(first + part * static_cast<double>(count)), session_.samples());
       });
@@ -85,17 +69,12 @@ class Renderer {
   }
 
   bool good_enough() {
-    if (session_.samples() == 0) return false;
-    if (settings_.stop.time && seconds() >= settings_.stop.time->value) return true;
-    if (!settings_.stop.error || session_.samples() < samples_before_error) return false;
-    const ErrorEstimate estimate = session_.error();
-    const bool now = estimate.known && estimate.error <= *settings_.stop.error;
-    const bool before = std::exchange(error_reached_, now);
-    return now && before;
+    const bool asked = rule_.needs_error(session_.samples());
+    return rule_.holds(session_.samples(), seconds(), asked ? session_.error() : ErrorEstimate{});
   }
 
   [[nodiscard]] double fraction(double samples) const {
-    double f = samples / static_cast<double>(cap_);
+    double f = samples / static_cast<double>(rule_.cap());
     if (settings_.stop.time) f = std::fmax(f, seconds() / settings_.stop.time->value);
     return f;
   }
@@ -105,8 +84,7 @@ class Renderer {
   Clock::time_point start_;
   ProgressReporter progress_;
   RenderSession session_;
-  std::int64_t cap_;
-  bool error_reached_ = false;
+  StopRule rule_;
 };
 
 }  // namespace

@@ -34,12 +34,13 @@ ir::RenderSettings coarse_settings(ir::RenderSettings settings, std::int64_t ste
 
 struct RenderSession::Impl {
   Impl(const RenderScene& of_scene, const ir::RenderSettings& with_settings,
-       const ir::EffectSet& with_effects, ThreadPool& on_pool, KernelChoice choice)
+       const ir::EffectSet& with_effects, ThreadPool& on_pool, KernelChoice choice,
+       const ir::Camera* camera)
       : scene(of_scene),
         settings(with_settings),
         effects(with_effects),
         pool(on_pool),
-        kernel(scene, settings, effects, choice),
+        kernel(scene, settings, effects, choice, camera),
         film(settings, Film::Squares::yes),
         workers(pool.size()),
         tiles_x((film.region_width() + tile_side - 1) / tile_side),
@@ -64,9 +65,10 @@ struct RenderSession::Impl {
 };
 
 RenderSession::RenderSession(const RenderScene& scene, const ir::RenderSettings& settings,
-                             const ir::EffectSet& effects, ThreadPool& pool, KernelChoice kernel)
-    : impl_(std::make_unique<Impl>(scene, settings, effects, pool, kernel)) {
+                             const ir::EffectSet& effects, ThreadPool& pool, KernelChoice kernel,
+                             const ir::Camera* camera) {
   SCENEC_ASSERT(settings.camera.valid());
+  impl_ = std::make_unique<Impl>(scene, settings, effects, pool, kernel, camera);
 }
 RenderSession::~RenderSession() = default;
 RenderSession::RenderSession(RenderSession&&) noexcept = default;
@@ -124,20 +126,22 @@ std::uint64_t RenderSession::rays() const {
   return sum;
 }
 
-std::optional<Picture> RenderSession::coarse_picture(int step, const std::stop_token& stop) const {
-  SCENEC_ASSERT(step >= 1);
-  RenderSession coarse(impl_->scene, coarse_settings(impl_->settings, step), impl_->effects,
-                       impl_->pool);
-  if (!coarse.advance(1, stop)) return std::nullopt;
-  return coarse.picture();
-}
-
 std::string RenderSession::save() const {
   return impl_->film.save();
 }
 
 bool RenderSession::restore(std::string_view bytes) {
   return impl_->film.restore(bytes);
+}
+
+std::optional<Picture> coarse_picture(const RenderScene& scene, const ir::RenderSettings& settings,
+                                      const ir::EffectSet& effects, ThreadPool& pool, int step,
+                                      const std::stop_token& stop, const ir::Camera* camera) {
+  SCENEC_ASSERT(step >= 1);
+  RenderSession coarse(scene, coarse_settings(settings, step), effects, pool,
+                       KernelChoice::smallest, camera);
+  if (!coarse.advance(1, stop)) return std::nullopt;
+  return coarse.picture();
 }
 
 }  // namespace scenec::backend

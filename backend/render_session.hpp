@@ -18,10 +18,11 @@ namespace scenec::backend {
 class RenderSession {
  public:
   // Scene and pool must outlive the session. `samples` and `stop` of the settings are not looked
-  // at: whoever calls advance() decides.
+  // at: whoever calls advance() decides. `camera`, when there is one, is seen through instead of
+  // the one of the settings.
   RenderSession(const RenderScene& scene, const ir::RenderSettings& settings,
                 const ir::EffectSet& effects, ThreadPool& pool,
-                KernelChoice kernel = KernelChoice::smallest);
+                KernelChoice kernel = KernelChoice::smallest, const ir::Camera* camera = nullptr);
   ~RenderSession();
   RenderSession(RenderSession&&) noexcept;
   RenderSession& operator=(RenderSession&&) noexcept;
@@ -38,10 +39,6 @@ class RenderSession {
   [[nodiscard]] ErrorEstimate error() const;
   [[nodiscard]] std::uint64_t rays() const;  // dropped rounds included
 
-  // A picture of 1/step the width and height with one sample a pixel, for a first look; nullopt
-  // when it was stopped. An extra pass that costs 1/step^2 of a sample; nothing of it is kept.
-  [[nodiscard]] std::optional<Picture> coarse_picture(int step, const std::stop_token& stop) const;
-
   // The sums of finished rounds as bytes, for this machine's builds of the same scene and settings;
   // what a session takes up from them goes on to the same bytes. The caller says what they belong
   // to; restore() refuses (false, nothing changed) only what cannot be sums of this picture.
@@ -52,5 +49,14 @@ class RenderSession {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+// A picture of 1/step the width and height with one sample a pixel, for a first look before a
+// session takes the memory for its sums; nullopt when it was stopped. Costs 1/step^2 of a sample;
+// nothing of it is kept.
+[[nodiscard]] std::optional<Picture> coarse_picture(const RenderScene& scene,
+                                                    const ir::RenderSettings& settings,
+                                                    const ir::EffectSet& effects, ThreadPool& pool,
+                                                    int step, const std::stop_token& stop,
+                                                    const ir::Camera* camera = nullptr);
 
 }  // namespace scenec::backend

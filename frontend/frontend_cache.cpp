@@ -40,6 +40,7 @@ grammar::SyntaxTree FrontendCache::tree_of(grammar::Dialect dialect, FileId file
   if (const auto known = index_.find(key); known != index_.end()) {
     ++counters_.files_reused;
     entries_.splice(entries_.begin(), entries_, known->second);
+    entries_.front().last_used = compilations_;
     for (const Diagnostic& diagnostic : known->second->found)
       sink.report(about_file(diagnostic, file));
     return known->second->tree.of_file(file, text);
@@ -52,20 +53,22 @@ grammar::SyntaxTree FrontendCache::tree_of(grammar::Dialect dialect, FileId file
   const std::size_t bytes = size_of(tree, found);
   if (bytes > byte_budget_) return tree;
   forget_down_to(byte_budget_ - bytes);
-  entries_.push_front({key, tree.of_file({}, {}), std::move(found), bytes});
+  entries_.push_front({key, tree.of_file({}, {}), std::move(found), bytes, compilations_});
   index_.emplace(key, entries_.begin());
   bytes_ += bytes;
   return tree;
 }
 
 void FrontendCache::forget_down_to(std::size_t budget) {
-  while (bytes_ > budget) {
-    const Entry& oldest = entries_.back();
-    bytes_ -= oldest.bytes;
-    index_.erase(oldest.key);
-    entries_.pop_back();
-    ++counters_.files_forgotten;
-  }
+  while (bytes_ > budget) forget_oldest();
+}
+
+void FrontendCache::forget_oldest() {
+  const Entry& oldest = entries_.back();
+  bytes_ -= oldest.bytes;
+  index_.erase(oldest.key);
+  entries_.pop_back();
+  ++counters_.files_forgotten;
 }
 
 // ---- modules
@@ -80,7 +83,11 @@ std::size_t FrontendCache::module_bytes() const {
 }
 
 void FrontendCache::begin_compilation() {
-  if (module_bytes() <= byte_budget_) return;
+  params_.clear();
+  ++compilations_;
+  while (!entries_.empty() && compilations_ - entries_.back().last_used > unused_for_)
+    forget_oldest();
+  if (module_bytes() <= module_budget_) return;
   modules_.clear();
   file_numbers_.clear();
   rows_ = ir::SceneBuilder();

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <list>
 #include <memory>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include "base/hash.hpp"
 #include "frontend/eval/scope.hpp"
 #include "frontend/eval/value.hpp"
+#include "frontend/param_info.hpp"
 #include "grammar/parse.hpp"
 #include "ir/builder.hpp"
 
@@ -46,9 +48,13 @@ struct KeptModule {
 
 class FrontendCache {
  public:
-  // Keeps about `byte_budget` bytes; what was used longest ago goes first.
+  // Keeps about `byte_budget` bytes of trees, and as much of modules unless told otherwise; what
+  // was used longest ago goes first. A tree that `unused_for` compilations did without goes in any
+  // case: under ten thousand edits nothing grows.
   explicit FrontendCache(std::size_t byte_budget = std::size_t{256} << 20)
-      : byte_budget_(byte_budget) {}
+      : FrontendCache(byte_budget, byte_budget, std::numeric_limits<std::uint64_t>::max()) {}
+  FrontendCache(std::size_t byte_budget, std::size_t module_budget, std::uint64_t unused_for)
+      : byte_budget_(byte_budget), module_budget_(module_budget), unused_for_(unused_for) {}
 
   struct Counters {
     std::uint64_t files_parsed = 0;
@@ -70,6 +76,10 @@ class FrontendCache {
   // `key`: hash of a file's place and text.
   [[nodiscard]] std::shared_ptr<const KeptModule> find_module(Hash128 key) const;
   void keep_module(Hash128 key, KeptModule module);
+  // A param of the scene itself.
+  void note_param(ParamInfo info) { params_.push_back(std::move(info)); }
+  // Those of the last compilation, as far as it got.
+  [[nodiscard]] const std::vector<ParamInfo>& params() const { return params_; }
   // A number for the file, the same each time.
   [[nodiscard]] FileId file_number(Hash128 key);
   [[nodiscard]] ir::SceneBuilder& rows() { return rows_; }
@@ -92,11 +102,17 @@ class FrontendCache {
     grammar::SyntaxTree tree;  // without its text
     std::vector<Diagnostic> found;
     std::size_t bytes = 0;
+    std::uint64_t last_used = 0;  // in which compilation
   };
   void forget_down_to(std::size_t budget);
   [[nodiscard]] std::size_t module_bytes() const;
 
+  void forget_oldest();
+
   std::size_t byte_budget_;
+  std::size_t module_budget_;
+  std::uint64_t unused_for_;
+  std::uint64_t compilations_ = 0;
   std::size_t bytes_ = 0;
   Counters counters_;
   std::list<Entry> entries_;  // the one used last first
@@ -105,6 +121,7 @@ class FrontendCache {
   std::unordered_map<Hash128, FileId> file_numbers_;
   ir::SceneBuilder rows_;  // what the values of modules refer to
   std::size_t declaration_count_ = 0;
+  std::vector<ParamInfo> params_;
 };
 
 // Parses the text, or takes its tree from the cache of the options.

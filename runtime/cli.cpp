@@ -115,6 +115,7 @@ std::variant<std::vector<std::string>, UsageError> operands_of(
 std::optional<UsageError> find_operand_problem(const Options& options) {
   const VerbInfo& verb = info_of(options.verb);
   const bool takes_none = verb.operands.empty();
+  const bool takes_scenes = verb.operands.starts_with("SCENE");
   if (takes_none && !options.operands.empty()) {
     return UsageError{fmt::format("`{}` takes no `{}`", verb.name, printable(options.operands[0]))};
   }
@@ -129,17 +130,18 @@ std::optional<UsageError> find_operand_problem(const Options& options) {
   }
   if (options.operands.size() > 1 && !takes_many && !explains_effects) {
     return UsageError{fmt::format("`{}` takes one {} at a time; `{}` is a second one", verb.name,
-                                  verb.operands == "SCENE" ? "scene" : "name",
+                                  takes_scenes ? "scene" : "name",
                                   printable(options.operands[1]))};
   }
   if (needs_one && options.operands.empty()) {
     return UsageError{fmt::format("`{}` needs {}", verb.name,
-                                  verb.operands == "SCENE"   ? "the name of a scene file"
+                                  takes_scenes               ? "the name of a scene file"
                                   : takes_many               ? "the name of a file, or `-`"
                                   : verb.operands == "SHELL" ? "`bash`, `zsh` or `fish`"
                                                              : "the code or name of a diagnostic")};
   }
-  if (verb.operands == "SCENE" && options.operands[0] == "-") {
+  if (takes_scenes && std::find(options.operands.begin(), options.operands.end(), "-") !=
+                          options.operands.end()) {
     return UsageError{"a scene is read from a file, not from standard input"};
   }
   return std::nullopt;

@@ -16,14 +16,19 @@ namespace {
 using Problem = std::optional<std::string>;
 
 constexpr VerbSet render_only{Verb::render};
-constexpr VerbSet compiling{Verb::render, Verb::check, Verb::dump, Verb::explain};
-constexpr VerbSet reading{Verb::render,  Verb::check, Verb::dump,
+constexpr VerbSet picturing{Verb::render, Verb::watch};
+constexpr VerbSet compiling{Verb::render, Verb::watch, Verb::check, Verb::dump, Verb::explain};
+constexpr VerbSet reading{Verb::render,  Verb::watch, Verb::check,  Verb::dump,
                           Verb::convert, Verb::fmt,   Verb::explain};
 constexpr VerbSet diagnosing{Verb::render, Verb::check, Verb::dump, Verb::convert, Verb::explain};
-constexpr VerbSet writing{Verb::render, Verb::dump, Verb::convert};
+constexpr VerbSet rooted{Verb::render, Verb::watch,   Verb::check,
+                         Verb::dump,   Verb::convert, Verb::explain};
+constexpr VerbSet writing{Verb::render, Verb::watch, Verb::dump, Verb::convert};
+constexpr VerbSet watch_only{Verb::watch};
 
 constexpr std::int64_t largest_sample_count = 1048576;
 constexpr std::int64_t largest_thread_count = 1024;
+constexpr std::int64_t largest_port = 65535;
 
 // `Target` is the optional member that takes the value.
 template <class Target, class T>
@@ -104,20 +109,29 @@ std::optional<std::string> store_limit(std::uint64_t& place, std::string_view te
   return problem;
 }
 
+Problem store_display_server(Options& options, std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  const auto port =
+      colon == std::string_view::npos ? std::nullopt : parse_int(text.substr(colon + 1));
+  if (colon == 0 || !port || *port < 1 || *port > largest_port)
+    return "a host and a port, as in `127.0.0.1:14158`";
+  options.display_server = {std::string(text.substr(0, colon)), static_cast<int>(*port)};
+  return std::nullopt;
+}
+
 using Text = std::string_view;
 constexpr std::array option_table{
-    OptionRow{"-o,--output", "FILE", "where to write (render: .png, .exr or .bmp)", writing,
+    OptionRow{"-o,--output", "FILE", "where to write (pictures: .png, .exr or .bmp)", writing,
               [](Options& o, Text v) { return store_path(o.output, v); }},
-    OptionRow{"--size", "WxH", "width and height in pixels", render_only,
+    OptionRow{"--size", "WxH", "width and height in pixels", picturing,
               [](Options& o, Text v) { return store_parsed(o.size, parse_size(v)); }},
-    OptionRow{"--samples", "N", "samples a pixel; replaces the scene's samples and stop",
-              render_only,
+    OptionRow{"--samples", "N", "samples a pixel; replaces the scene's samples and stop", picturing,
               [](Options& o, Text v) {
                 return store_parsed(o.samples, parse_whole_number(v, 1, largest_sample_count));
               }},
-    OptionRow{"--time", "TIME", "stop after this time: 500ms, 30s, 2min, 1h", render_only,
+    OptionRow{"--time", "TIME", "stop after this time: 500ms, 30s, 2min, 1h", picturing,
               [](Options& o, Text v) { return store_parsed(o.time, parse_duration(v)); }},
-    OptionRow{"--seed", "N", "seed of all random choices", render_only,
+    OptionRow{"--seed", "N", "seed of all random choices", picturing,
               [](Options& o, Text v) {
                 return store_parsed(
                     o.seed, parse_whole_number(v, 0, std::numeric_limits<std::int64_t>::max()));
@@ -126,12 +140,12 @@ constexpr std::array option_table{
               [](Options& o, Text v) {
                 return store_choice<ir::Method>(o.method, v, ir::EnumNames<ir::Method>::names);
               }},
-    OptionRow{"--camera", "NAME", "which camera of the scene", render_only,
+    OptionRow{"--camera", "NAME", "which camera of the scene", picturing,
               [](Options& o, Text v) -> Problem {
                 o.camera = std::string(v);
                 return std::nullopt;
               }},
-    OptionRow{"--region", "x0,y0,x1,y1", "render these pixels only", render_only,
+    OptionRow{"--region", "x0,y0,x1,y1", "render these pixels only", picturing,
               [](Options& o, Text v) { return store_parsed(o.region, parse_region(v)); }},
     OptionRow{"-D", "NAME=VALUE", "set a parameter of the scene; may be repeated", compiling,
               store_setting, ValueNeed::required, Repeat::many},
@@ -149,13 +163,13 @@ constexpr std::array option_table{
                 constexpr std::array<Text, 2> names{"sdl", "course"};
                 return store_choice<grammar::Dialect>(o.dialect, v, names);
               }},
-    OptionRow{"--half", "", "16-bit floats in EXR files", render_only,
+    OptionRow{"--half", "", "16-bit floats in EXR files", picturing,
               [](Options& o, Text) -> Problem {
                 o.half = true;
                 return std::nullopt;
               },
               ValueNeed::none},
-    OptionRow{"--precision", "NAME", "vertices of meshes: mixed (default) or double", render_only,
+    OptionRow{"--precision", "NAME", "vertices of meshes: mixed (default) or double", picturing,
               [](Options& o, Text v) {
                 constexpr std::array<Text, 2> names{"mixed", "double"};
                 std::optional<backend::Precision> precision;
@@ -164,7 +178,7 @@ constexpr std::array option_table{
                 return problem;
               }},
     OptionRow{"--target", "NAME",
-              "auto (default), baseline, sse4, avx2 or avx512: the same picture", render_only,
+              "auto (default), baseline, sse4, avx2 or avx512: the same picture", picturing,
               store_target},
     OptionRow{"--effects", "NAME", "found (default) or all: the same picture, slower", render_only,
               [](Options& o, Text v) {
@@ -185,8 +199,8 @@ constexpr std::array option_table{
                 constexpr std::array<Text, 4> names{"tree", "ast", "ir", "effects"};
                 return store_choice<DumpStage>(o.stage, v, names);
               }},
-    OptionRow{"--root", "DIR", "read files beneath this directory only", diagnosing, store_root},
-    OptionRow{"--strict-links", "", "read no file that has a second name (a hard link)", diagnosing,
+    OptionRow{"--root", "DIR", "read files beneath this directory only", rooted, store_root},
+    OptionRow{"--strict-links", "", "read no file that has a second name (a hard link)", rooted,
               [](Options& o, Text) -> Problem {
                 o.strict_links = true;
                 return std::nullopt;
@@ -198,17 +212,17 @@ constexpr std::array option_table{
 #include "base/limits.def"
 #undef SCENEC_LIMIT
     OptionRow{"--cache", "DIR|off", "where decoded meshes are kept (default: the user's cache)",
-              VerbSet{Verb::render, Verb::check},
+              VerbSet{Verb::render, Verb::watch, Verb::check},
               [](Options& o, Text v) -> Problem {
                 if (v.empty()) return "`off` or the name of a directory";
                 o.cache = v;
                 return std::nullopt;
               }},
     OptionRow{"--cache-limit", "SIZE", "bytes the cache may take (default 2GiB)",
-              VerbSet{Verb::render, Verb::check},
+              VerbSet{Verb::render, Verb::watch, Verb::check},
               [](Options& o, Text v) { return store_parsed(o.cache_budget, parse_byte_count(v)); }},
     OptionRow{"--threads", "N", "threads to work with (default: all)",
-              VerbSet{Verb::render, Verb::check},
+              VerbSet{Verb::render, Verb::watch, Verb::check},
               [](Options& o, Text v) {
                 return store_parsed(o.threads, parse_whole_number(v, 1, largest_thread_count));
               }},
@@ -250,6 +264,25 @@ constexpr std::array option_table{
                 return std::nullopt;
               },
               ValueNeed::none},
+    OptionRow{"--port", "N", "where the page is (default 7727, or any that is free)", watch_only,
+              [](Options& o, Text v) {
+                return store_parsed(o.port, parse_whole_number(v, 1, largest_port));
+              }},
+    OptionRow{"--open", "", "open the page in the browser", watch_only,
+              [](Options& o, Text) -> Problem {
+                o.open_page = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
+    OptionRow{"--display-server", "HOST:PORT", "show tiles in tev or HDRView too", watch_only,
+              [](Options& o, Text v) { return store_display_server(o, v); }},
+    OptionRow{"--poll", "", "look at the files every second instead of asking the system",
+              watch_only,
+              [](Options& o, Text) -> Problem {
+                o.poll = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
     OptionRow{"--check", "", "name the files that are not formatted, change none",
               VerbSet{Verb::fmt},
               [](Options& o, Text) -> Problem {
@@ -269,7 +302,8 @@ constexpr std::array option_table{
                 return std::nullopt;
               },
               ValueNeed::none},
-    OptionRow{"--json", "", "as JSON (the default of schema)", VerbSet{Verb::schema, Verb::explain},
+    OptionRow{"--json", "", "as JSON (the default of schema); watch: events, one object a line",
+              VerbSet{Verb::schema, Verb::explain, Verb::watch},
               [](Options& o, Text) -> Problem {
                 o.markdown = false;
                 o.json = true;

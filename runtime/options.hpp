@@ -75,11 +75,19 @@ struct Options {
   StatsForm stats = StatsForm::none;
   std::string stats_file;  // of StatsForm::json
   DumpStage stage = DumpStage::ir;
+  std::optional<std::int64_t> port;  // watch
+  bool open_page = false;
+  bool poll = false;
+  struct HostAndPort {
+    std::string host;
+    int port = 0;
+  };
+  std::optional<HostAndPort> display_server;
   bool check_layout = false;  // fmt: name the files that would change, change none
   bool diff = false;
   bool list = false;
   bool markdown = false;
-  bool json = false;  // explain
+  bool json = false;  // explain, watch
 };
 
 class VerbSet {

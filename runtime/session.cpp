@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/render_diagnostic.hpp"
+#include "frontend/frontend_cache.hpp"
 #include "runtime/dependencies.hpp"
 #include "runtime/output.hpp"
 #include "runtime/params_file.hpp"
@@ -123,10 +124,14 @@ std::optional<ir::Scene> Session::compile(const frontend::LoadedFile& file) {
   return frontend::compile(file, compile_options_, files_, sources_, sink_);
 }
 
-std::optional<ir::Scene> Session::load_and_compile(ThreadPool& pool) {
+std::optional<ir::Scene> Session::load_and_compile(ThreadPool& pool,
+                                                   frontend::FrontendCache* texts) {
   compile_options_.pool = &pool;
+  compile_options_.cache = texts;
   const auto file = load(std::nullopt, frontend::LoadTree::unless_large);
-  return file ? compile(*file) : std::nullopt;
+  auto scene = file ? compile(*file) : std::nullopt;
+  if (texts != nullptr && file) params_ = texts->params();
+  return scene;
 }
 
 bool Session::has_read(const std::string& path) const {

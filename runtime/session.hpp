@@ -13,6 +13,7 @@
 #include "base/rooted_file_system.hpp"
 #include "base/source_map.hpp"
 #include "frontend/compile.hpp"
+#include "frontend/param_info.hpp"
 #include "ir/scene.hpp"
 #include "runtime/dependencies.hpp"
 #include "runtime/diagnostic_formats.hpp"
@@ -31,14 +32,19 @@ class Session {
   [[nodiscard]] const std::string& scene_path() const { return scene_path_; }
   [[nodiscard]] RecordingFileSystem& files() { return files_; }
   [[nodiscard]] SourceMap& sources() { return sources_; }
+  [[nodiscard]] const SourceMap& sources() const { return sources_; }
   [[nodiscard]] DiagnosticSink& sink() { return sink_; }
 
   [[nodiscard]] std::optional<frontend::LoadedFile> load(
       const std::optional<std::string>& output_directory = std::nullopt,
       frontend::LoadTree load_tree = frontend::LoadTree::always);
   [[nodiscard]] std::optional<ir::Scene> compile(const frontend::LoadedFile& file);
-  // Both, for who wants no tree; nullopt also when the file could not be read.
-  [[nodiscard]] std::optional<ir::Scene> load_and_compile(ThreadPool& pool);
+  // Both, for who wants no tree; nullopt also when the file could not be read. `texts`: what
+  // earlier compilations of this process have read.
+  [[nodiscard]] std::optional<ir::Scene> load_and_compile(ThreadPool& pool,
+                                                          frontend::FrontendCache* texts = nullptr);
+  // Of the last compilation that asked for them by handing over a cache.
+  [[nodiscard]] const std::vector<frontend::ParamInfo>& params() const { return params_; }
 
   // What the command line and the file of parameters set, each param once.
   [[nodiscard]] std::vector<NameAndValue> settings() const;
@@ -71,6 +77,7 @@ class Session {
   std::string scene_path_;
   std::set<std::string>* told_ = nullptr;
   SharedDependencies* shared_ = nullptr;
+  std::vector<frontend::ParamInfo> params_;
   bool loaded_ = false;
   bool scene_unreadable_ = false;
   RootedFileSystem disk_;

@@ -82,9 +82,10 @@ KernelSummary kernel_for(ir::Method method, const ir::EffectSet& effects, Kernel
 }
 
 TileKernel::TileKernel(const RenderScene& scene, const ir::RenderSettings& settings,
-                       const ir::EffectSet& effects, KernelChoice choice)
+                       const ir::EffectSet& effects, KernelChoice choice, const ir::Camera* camera)
     : job_{trace_job(scene, settings, mask_of(effects)),
-           CameraSampler(scene.scene->cameras[settings.camera], settings.size,
+           CameraSampler(camera != nullptr ? *camera : scene.scene->cameras[settings.camera],
+                         settings.size,
                          effects.has(ir::Effect::depth_of_field) ? CameraSampler::Lens::simulated
                                                                  : CameraSampler::Lens::left_out),
            FilterSampler(settings.filter)},

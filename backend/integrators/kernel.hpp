@@ -42,9 +42,10 @@ struct TileJob {
 class TileKernel {
  public:
   // `scene` and `settings` must outlive the kernel. `choice`: which of the compiled kernels runs;
-  // none has an influence on the picture.
+  // none has an influence on the picture. `camera`, where there is one, stands for the scene's.
   TileKernel(const RenderScene& scene, const ir::RenderSettings& settings,
-             const ir::EffectSet& effects, KernelChoice choice = KernelChoice::smallest);
+             const ir::EffectSet& effects, KernelChoice choice = KernelChoice::smallest,
+             const ir::Camera* camera = nullptr);
 
   // Adds the samples of every pixel to the film. False when a stop request came in between: some
   // pixels then have fewer samples than others.

@@ -4,11 +4,13 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "frontend/frontend_cache.hpp"
 #include "frontend/lower/lowering_access.hpp"
 #include "frontend/lower/modules.hpp"
 
 namespace scenec::frontend {
 
+using grammar::NodeRef;
 using grammar::SyntaxKind;
 
 void Lowering::declare(Scope& scope, NodeRef name, BindingKind kind, Value value, NodeRef node) {
@@ -79,6 +81,50 @@ std::optional<Value> Lowering::param_setting(std::string_view name, const TypeRe
   return coerce(session_, evaluator_.evaluate(expression, nothing), type, need);
 }
 
+namespace {
+
+// What a page with sliders is told of a param.
+std::optional<ParamInfo> param_info(NodeRef node, const TypeRef& type, const Value& value,
+                                    Scope& scope, Session& session, Evaluator& evaluator) {
+  const ast::Item parts = ast::item_of(node);
+  if (!parts.expression || value.poisoned() || !value.known) return std::nullopt;
+  using Kind = ParamInfo::Kind;
+  ParamInfo info{.name = std::string(parts.name.text()),
+                 .type = text_of(type),
+                 .documentation = node.tree().documentation_of(node),
+                 .text = std::string(parts.expression.text()),
+                 .span = parts.expression.span()};
+  if (type.list_depth == 0 && (value.is_number() || value.is(Type::boolean))) {
+    info.kind = value.is(Type::number)    ? Kind::number
+                : value.is(Type::integer) ? Kind::integer
+                                          : Kind::boolean;
+    info.dimension = value.dimension;
+    info.value[0] = value.is(Type::boolean) ? (value.boolean() ? 1 : 0) : value.real();
+  } else if (type.list_depth == 0 && value.is(Type::color)) {
+    info.kind = Kind::color;
+    info.value = value.n;
+  } else if (type.list_depth == 0 && value.is(Type::string)) {
+    info.kind = Kind::string;
+    info.string_value = value.text();
+  }
+  const auto end_of = [&](NodeRef end) -> std::optional<double> {
+    if (!end) return std::nullopt;
+    const Value found = evaluator.evaluate(end, scope);
+    return found.is_number() && found.known ? std::optional(found.real()) : std::nullopt;
+  };
+  if (parts.range) {
+    const ast::Range range = ast::range_of(parts.range);
+    info.low = end_of(range.low);
+    info.high = end_of(range.high);
+  }
+  const auto& settings = session.options.params;
+  info.is_set = std::any_of(settings.begin(), settings.end(),
+                            [&](const ParamSetting& s) { return s.name == info.name; });
+  return info;
+}
+
+}  // namespace
+
 void Lowering::declare_param(NodeRef node, Scope& scope) {
   if (scope.parent() != nullptr) return misplaced(node, "inside a block");
   const ast::Item parts = ast::item_of(node);
@@ -92,13 +138,20 @@ void Lowering::declare_param(NodeRef node, Scope& scope) {
         evaluator_.in_range(value, parts.range, scope, parts.name.text(), parts.expression.span());
   }
   const bool settable = main_file_ == node.span().file && !session_.checking_only();
+  const Value written = value;
   if (type && settable) {
     if (auto now = clock_setting(node, scope)) {
       value = *std::move(now);
     } else if (auto given = param_setting(parts.name.text(), *type)) {
-      const NodeRef written = modules_->setting_expression(parts.name.text());
+      const NodeRef setting = modules_->setting_expression(parts.name.text());
       value = evaluator_.in_range(*given, parts.range, scope, parts.name.text(),
-                                  written ? written.span() : parts.name.span());
+                                  setting ? setting.span() : parts.name.span());
+    }
+    // One that was refused is shown as it is written: another value may mend it.
+    if (FrontendCache* const kept = session_.options.cache) {
+      auto info =
+          param_info(node, *type, value.poisoned() ? written : value, scope, session_, evaluator_);
+      if (info) kept->note_param(*std::move(info));
     }
   }
   declare(scope, parts.name, BindingKind::param, std::move(value), node);

@@ -1,10 +1,8 @@
 // `scenec render`: compile, prepare, build, render, write. Whatever can be refused is refused
 // before the first ray; a stop request writes what there is.
 #include <fmt/format.h>
-#include <sys/utsname.h>
 
 #include <chrono>
-#include <ctime>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,6 +15,7 @@
 #include "runtime/cache.hpp"
 #include "runtime/cli.hpp"
 #include "runtime/output.hpp"
+#include "runtime/picture_metadata.hpp"
 #include "runtime/progress.hpp"
 #include "runtime/session.hpp"
 #include "runtime/settings.hpp"
@@ -27,38 +26,6 @@
 namespace scenec::runtime {
 
 namespace {
-
-std::string host_name() {
-  utsname name{};
-  return ::uname(&name) == 0 ? name.nodename : "unknown";
-}
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1,
-                     parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
-}
-
-// No time, host, thread count or path unless `--stamp` asks: the same picture is the same bytes.
-backend::EncodeOptions encode_options(const Options& options, const ir::Scene& scene,
-                                      const ir::RenderSettings& settings,
-                                      const backend::Picture& picture, const ThreadPool& pool) {
-  backend::EncodeOptions encode{.half = options.half, .metadata = {}};
-  encode.metadata = {{"software", std::string(version_text)},
-                     {"scenec/scene_hash", scene.hash.hex()},
-                     {"scenec/command", picture_command(options)},
-                     {"scenec/seed", std::to_string(settings.seed)},
-                     {"scenec/samples", std::to_string(picture.samples)}};
-  if (options.stamp) {
-    encode.metadata.emplace_back("scenec/date", utc_now());
-    encode.metadata.emplace_back("scenec/host", host_name());
-    encode.metadata.emplace_back("scenec/threads", std::to_string(pool.size()));
-    encode.metadata.emplace_back("scenec/scene", options.operands.at(0));
-  }
-  return encode;
-}
 
 // Where a program reads the diagnostics, no other lines are mixed in unless asked for.
 ProgressStyle progress_style_of(const Options& options) {
@@ -169,7 +136,7 @@ class RenderRun {
     Options told = options_;
     told.settings = session_.settings();  // those of the file of parameters too
     const std::string bytes = backend::encode(
-        picture, settings, format, encode_options(told, scene, settings, picture, pool_));
+        picture, settings, format, encode_options(told, scene, settings, picture, pool_.size()));
     if (const auto problem = write_file(output_, bytes)) return *problem;
     clock_.finish("write");
     if (progress_ != ProgressStyle::none && progress_ != ProgressStyle::json) {

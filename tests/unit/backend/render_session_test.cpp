@@ -25,6 +25,11 @@ struct Stage {
     return {*ready.built, ready.scene.render,
             find_effects(*ready.built, ready.scene.render).simulated(), ready.pool};
   }
+  std::optional<Picture> coarse(int step, const std::stop_token& stop) {
+    return coarse_picture(*ready.built, ready.scene.render,
+                          find_effects(*ready.built, ready.scene.render).simulated(), ready.pool,
+                          step, stop);
+  }
 };
 
 void expect_same(const Picture& a, const Picture& b) {
@@ -87,8 +92,7 @@ TEST(render_session, sums_that_are_cut_off_are_refused_and_change_nothing) {
 
 TEST(render_session, the_first_look_is_the_same_view_with_fewer_pixels) {
   Stage stage;
-  const RenderSession session = stage.session();
-  const auto coarse = session.coarse_picture(4, {});
+  const auto coarse = stage.coarse(4, {});
   ASSERT_TRUE(coarse);
   EXPECT_EQ(coarse->width, 10);
   EXPECT_EQ(coarse->height, 8);
@@ -105,7 +109,7 @@ TEST(render_session, the_first_look_is_the_same_view_with_fewer_pixels) {
   EXPECT_GT(sky(*coarse), 0.1);
   std::stop_source stopped;
   stopped.request_stop();
-  EXPECT_FALSE(session.coarse_picture(4, stopped.get_token()));
+  EXPECT_FALSE(stage.coarse(4, stopped.get_token()));
 }
 
 }  // namespace

@@ -1,0 +1,48 @@
+#include "runtime/picture_metadata.hpp"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <ctime>
+#include <string>
+
+#include "runtime/cli.hpp"
+
+namespace scenec::runtime {
+
+namespace {
+
+std::string host_name() {
+  utsname name{};
+  return ::uname(&name) == 0 ? name.nodename : "unknown";
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1,
+                     parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
+}
+
+}  // namespace
+
+backend::EncodeOptions encode_options(const Options& options, const ir::Scene& scene,
+                                      const ir::RenderSettings& settings,
+                                      const backend::Picture& picture, unsigned threads) {
+  backend::EncodeOptions encode{.half = options.half, .metadata = {}};
+  encode.metadata = {{"software", std::string(version_text)},
+                     {"scenec/scene_hash", scene.hash.hex()},
+                     {"scenec/command", picture_command(options)},
+                     {"scenec/seed", std::to_string(settings.seed)},
+                     {"scenec/samples", std::to_string(picture.samples)}};
+  if (options.stamp) {
+    encode.metadata.emplace_back("scenec/date", utc_now());
+    encode.metadata.emplace_back("scenec/host", host_name());
+    encode.metadata.emplace_back("scenec/threads", std::to_string(threads));
+    encode.metadata.emplace_back("scenec/scene", options.operands.at(0));
+  }
+  return encode;
+}
+
+}  // namespace scenec::runtime

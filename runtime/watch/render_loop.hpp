@@ -1,0 +1,110 @@
+// The thread that makes pictures: compiles scenes whose files have changed, shows a coarse picture
+// first and refines it until the scene's stop rule holds. A change breaks the refining off at once,
+// but never the coarse picture: under a stream of edits pictures keep coming.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/content_cache.hpp"
+#include "base/parallel.hpp"
+#include "runtime/environment.hpp"
+#include "runtime/watch/board.hpp"
+#include "runtime/watch/file_watcher.hpp"
+#include "runtime/watch/watched_scene.hpp"
+
+namespace scenec::runtime {
+
+// What is told beside the pages: to the terminal, to files, to viewers. Called on the loop's
+// thread.
+class WatchListener {
+ public:
+  virtual ~WatchListener() = default;
+  virtual void attempted(const WatchedScene& scene) = 0;
+  virtual void pictured(const WatchedScene& scene,
+                        const std::shared_ptr<const backend::Picture>& picture) = 0;
+};
+
+class RenderLoop {
+ public:
+  // The options of each scene, one operand each.
+  RenderLoop(const std::vector<Options>& scenes, const Environment& environment, Board& board,
+             WatchListener& listener);
+  ~RenderLoop();
+  RenderLoop(const RenderLoop&) = delete;
+  RenderLoop& operator=(const RenderLoop&) = delete;
+
+  // Starts the thread. The watcher must live until stop() has returned.
+  void start(FileWatcher& watcher);
+  void stop();
+
+  // From any thread:
+  void files_settled(const FilesSettled& settled);
+  void add_notice(const std::string& text);
+  // What an author asks for on the page. `change` runs under the loop's lock and says whether the
+  // scene must be made anew for it.
+  enum class Need : std::uint8_t { nothing, picture, attempt };
+  void wish(std::size_t scene, const std::function<Need(Wishes&)>& change);
+  [[nodiscard]] Wishes wishes(std::size_t scene) const;
+  // What is on the screen.
+  [[nodiscard]] Shown shown(std::size_t scene) const;
+  [[nodiscard]] std::size_t scene_count() const { return scenes_.size(); }
+
+ private:
+  struct Job {
+    std::size_t scene = 0;
+    bool make = false;   // a new attempt
+    bool begin = false;  // a new picture
+    Wishes wishes{};
+    std::stop_token stop{};
+  };
+  // What has been done of what is wished, by scene.
+  struct Done {
+    std::uint64_t version = 0;
+    std::uint64_t files_version = 0;
+    // Made while files were changing, and not shown: to be made again when they have settled.
+    bool withheld = false;
+    std::optional<WatchClock::time_point> withheld_since;
+  };
+  void run(const std::stop_token& stop);
+  [[nodiscard]] std::optional<Job> next_job(const std::stop_token& stop);
+  [[nodiscard]] std::optional<Job> find_job();
+  [[nodiscard]] bool wants_refining(std::size_t scene) const;
+  void work(const Job& job, const std::stop_token& stop);
+  // False when there is nothing to show for it.
+  bool make(const Job& job);
+  bool withhold(std::size_t scene, const Attempt& attempt);
+  void show(WatchedScene& scene);
+  void break_off();
+  void watch_files(const WatchedScene& scene);
+
+  Board& board_;
+  WatchListener& listener_;
+  FileWatcher* watcher_ = nullptr;
+  ThreadPool pool_;
+  backend::SceneMemory memory_;
+  std::optional<ContentCache> cache_;
+  std::vector<std::unique_ptr<WatchedScene>> scenes_;
+  std::size_t turn_ = 0;  // of the scenes that are refined
+
+  mutable std::mutex mutex_;
+  std::condition_variable_any awake_;
+  std::vector<Wishes> wishes_;
+  std::vector<Done> done_;
+  std::vector<Shown> shown_;
+  std::vector<std::string> notices_;
+  std::stop_source breakable_;           // of the job that may be broken off now
+  WatchClock::time_point asked_;         // ... was asked to end
+  std::optional<double> broken_off_ms_;  // how long the last one took to
+  std::jthread thread_;
+};
+
+}  // namespace scenec::runtime
