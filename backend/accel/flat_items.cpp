@@ -1,4 +1,5 @@
 #include <limits>
+#include <utility>
 
 #include "backend/accel/scene_data.hpp"
 
@@ -36,33 +37,30 @@ class Flattener {
  public:
   explicit Flattener(const SceneAccel::Data& d) : d_(d) {}
 
-  FlatItems flatten() {
-    const std::size_t count = d_.items.size() + d_.unbounded.size();
-    if (count == 0 || count > FlatItems::most) return {};
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (!add(d_.flat_item(i), i)) return {};
+  [[nodiscard]] static bool takes(const PlacedItem& item) {
+    return item.transform == SceneAccel::identity && item.option == ItemOption::plain &&
+           (item.kind == ShapeKind::sphere || item.kind == ShapeKind::quad ||
+            item.kind == ShapeKind::disk || item.kind == ShapeKind::plane);
+  }
+
+  // Empty when a coordinate is beyond the domain.
+  FlatItems flatten(const std::vector<PlacedItem>& items) {
+    for (std::uint32_t i = 0; i < items.size(); ++i) add(items[i], i);
     out_.used = sane_;
-    return out_;
+    return sane_ ? out_ : FlatItems{};
   }
 
  private:
-  bool add(const PlacedItem& item, std::uint32_t number) {
-    if (item.transform != SceneAccel::identity || item.option != ItemOption::plain) return false;
+  void add(const PlacedItem& item, std::uint32_t number) {
     switch (item.kind) {
       case ShapeKind::sphere:
-        add_sphere(d_.spheres[item.index], number);
-        return true;
+        return add_sphere(d_.spheres[item.index], number);
       case ShapeKind::quad:
-        add_quad(d_.quads[item.index], number);
-        return true;
+        return add_quad(d_.quads[item.index], number);
       case ShapeKind::disk:
-        add_disk(d_.disks[item.index], number);
-        return true;
-      case ShapeKind::plane:
-        add_plane(d_.planes[item.index], number);
-        return true;
+        return add_disk(d_.disks[item.index], number);
       default:
-        return false;
+        return add_plane(d_.planes[item.index], number);
     }
   }
 
@@ -118,8 +116,22 @@ class Flattener {
 
 }  // namespace
 
-FlatItems flat_items_of(const SceneAccel::Data& data) {
-  return Flattener(data).flatten();
+void take_flat_items(SceneAccel::Data& d, std::vector<PlacedItem>& bounded) {
+  std::vector<PlacedItem> taken;
+  for (const std::vector<PlacedItem>* items :
+       {&std::as_const(bounded), &std::as_const(d.unbounded)})
+    for (const PlacedItem& item : *items) {
+      if (!Flattener::takes(item)) continue;
+      if (taken.size() == FlatItems::most) return;
+      taken.push_back(item);
+    }
+  const bool whole = taken.size() == bounded.size() + d.unbounded.size();
+  if (taken.empty() || (!whole && taken.size() > FlatItems::most_beside_others)) return;
+  d.flat = Flattener(d).flatten(taken);
+  if (!d.flat.used) return;
+  d.flat_list = std::move(taken);
+  std::erase_if(bounded, Flattener::takes);
+  std::erase_if(d.unbounded, Flattener::takes);
 }
 
 }  // namespace scenec::backend

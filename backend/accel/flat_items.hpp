@@ -1,12 +1,12 @@
-// A small world of simple shapes, laid out for testing one ray against four of a kind at a time:
-// for a dozen walls and balls that is faster than any tree.
+// The few simple shapes of a world, laid out for testing one ray against four of a kind at a time:
+// for a dozen walls and balls that is faster than any tree, whose boxes they would fill.
 //
-// Domain:     up to `most` plain spheres, quads, disks and planes without transform and nothing
-//             else, no coordinate beyond 2^300; rays likewise (`takes`).
+// Domain:     plain spheres, quads, disks and planes without transform, no coordinate beyond
+//             2^300; rays likewise (`takes`).
 // Method:     the formulas of the shapes' own kernels, operation by operation, so t has the same
 //             bits; the nearest shape is then asked again by its kernel for the rest of the hit.
 // Error:      that of the kernels.
-// Degenerate: worlds and rays beyond the domain take the tree.
+// Degenerate: rays beyond the domain ask the kernels themselves, one shape after the other.
 // Proof:      tests/unit/backend/accel/scene_accel_test.cpp, flat_items_test.cpp: the bits of brute
 //             force.
 #pragma once
@@ -48,7 +48,8 @@ struct alignas(32) FlatPlanes {
 };
 
 struct FlatItems {
-  static constexpr std::size_t most = 32;
+  static constexpr std::size_t most = 32;                // that are the whole world
+  static constexpr std::size_t most_beside_others = 12;  // that stand beside a tree
   static constexpr double largest = 0x1p300;
 
   bool used = false;

@@ -242,6 +242,7 @@ void SceneAccel::build(ThreadPool& pool, Target target) {
     d.infinite = true;
     return true;
   });
+  take_flat_items(d, bounded);
   d.tree.bounds = bounds_of(d, bounded, pool);
   std::vector<BuildRef> refs;
   for (int apart = 0; apart <= max_apart; ++apart) {
@@ -262,14 +263,17 @@ void SceneAccel::build(ThreadPool& pool, Target target) {
   d.items.clear();
   d.items.reserve(built.ids.size());
   for (const std::uint32_t i : built.ids) d.items.push_back(bounded[i]);
-  d.flat = flat_items_of(d);
+  for (const PlacedItem& item : d.flat_list) {
+    const Bounds3 box = d.world_bounds(item);
+    if (box.finite()) d.tree.bounds.grow(box);
+  }
 }
 
 Bounds3 SceneAccel::bounds() const {
   return data_->tree.bounds;
 }
 std::size_t SceneAccel::item_count() const {
-  return data_->items.size() + data_->unbounded.size();
+  return data_->items.size() + data_->unbounded.size() + data_->flat_list.size();
 }
 
 }  // namespace scenec::backend

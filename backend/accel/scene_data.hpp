@@ -50,7 +50,8 @@ struct SceneAccel::Data {
   std::vector<PlacedItem> unbounded;  // planes, instances of worlds that have some, and what is so
                                       // much larger than the rest that it would spoil the tree
   bool infinite = false;              // some of them are truly unbounded
-  FlatItems flat;  // instead of the tree, where it can
+  std::vector<PlacedItem> flat_list;  // the few that are tested by `flat`, outside the tree
+  FlatItems flat;
   WideTree tree;
   Target target = Target::baseline;
   std::uint32_t depth = 0;  // levels of instances below
@@ -60,10 +61,6 @@ struct SceneAccel::Data {
   [[nodiscard]] Bounds3 object_bounds(const PlacedItem& item) const;
   // Empty: nothing to hit; not finite: to be kept out of the tree.
   [[nodiscard]] Bounds3 world_bounds(const PlacedItem& item) const;
-  // The items as FlatItems numbers them.
-  [[nodiscard]] const PlacedItem& flat_item(std::uint32_t number) const {
-    return number < items.size() ? items[number] : unbounded[number - items.size()];
-  }
 };
 
 // An item and the world it is placed in.
@@ -88,8 +85,9 @@ struct ItemPath {
 void complete(const ItemPath& path, const Ray& world_ray, const ShapeHit& found, HitDetail detail,
               Hit& hit);
 
-// Empty where the world is too large or has other shapes. After items and unbounded are final.
-[[nodiscard]] FlatItems flat_items_of(const SceneAccel::Data& data);
+// Moves what FlatItems takes, if it is few, from `bounded` and `data.unbounded` to
+// `data.flat_list`, and lays it out.
+void take_flat_items(SceneAccel::Data& data, std::vector<PlacedItem>& bounded);
 
 // The queries, compiled for one instruction set.
 enum class Walk : std::uint8_t { tree, brute_force };

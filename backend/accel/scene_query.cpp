@@ -40,8 +40,7 @@ class Query {
 
   // True when a search for any hit may stop.
   bool trace(const World& world, const Ray& ray) {
-    if (world.flat.used && walk_ == Walk::tree && FlatItems::takes(ray))
-      return trace_flat(world, ray);
+    if (world.flat.used && trace_flat_list(world, ray)) return true;
     for (const PlacedItem& item : world.unbounded)
       if (trace_item(world, item, ray)) return true;
     if (world.tree.empty) return false;
@@ -94,6 +93,13 @@ class Query {
     return done;
   }
 
+  bool trace_flat_list(const World& world, const Ray& ray) {
+    if (walk_ == Walk::tree && FlatItems::takes(ray)) return trace_flat(world, ray);
+    for (const PlacedItem& item : world.flat_list)
+      if (trace_item(world, item, ray)) return true;
+    return false;
+  }
+
   bool trace_flat(const World& world, const Ray& ray) {
     Nearest nearest{best_.t, Hit::none, 0};
     FlatTest test(ray);
@@ -107,7 +113,7 @@ class Query {
     }
     if (nearest.number == Hit::none) return false;
     // The rest of the hit; t has the same bits.
-    const PlacedItem& item = world.flat_item(nearest.number);
+    const PlacedItem& item = world.flat_list[nearest.number];
     path_.steps[path_.size++] = {&world, &item};
     Ray local = ray;
     local.t_max = best_.t;
@@ -141,7 +147,7 @@ class Query {
           const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
           bits &= bits - 1;
           const std::uint32_t number = block.item[at + lane];
-          const std::uint32_t item = world.flat_item(number).item;
+          const std::uint32_t item = world.flat_list[number].item;
           const bool nearer = nearest.number == Hit::none || ts[lane] < nearest.t ||
                               (ts[lane] == nearest.t && item < nearest.item);
           if (!nearer) continue;
