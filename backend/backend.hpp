@@ -62,21 +62,26 @@ struct BuildOptions {
 [[nodiscard]] ir::EffectReport find_effects(const RenderScene& scene,
                                             const ir::RenderSettings& settings);
 
-// How far the picture is from the one that infinitely many samples would give, with a band that
-// holds the true figure 95 times in 100. `error` is the language's: sqrt(relMSE).
-struct ErrorEstimate {
-  bool known = false;  // false: too few samples to say anything; the figures are 0
-  double error = 0;
+// A figure and the band that holds the true one 95 times in 100.
+struct ErrorBand {
+  double value = 0;
   double low = 0;
   double high = 0;
+};
+// How far the picture is from the one that infinitely many samples would give.
+struct ErrorEstimate {
+  bool known = false;  // false: too few samples to say anything; the figures are 0
+  ErrorBand relative;  // the language's `error`: sqrt(relMSE)
+  ErrorBand absolute;  // RMSE
 };
 
 // `fraction` in [0, 1] of the work asked for; called from worker threads, at most every few ms.
 struct Progress {
   double fraction = 0;
-  std::int64_t samples_done = 0;  // a pixel, in finished rounds
-  ErrorEstimate error{};          // of a finished round, not always the last one
-  std::int64_t error_samples = 0;
+  std::int64_t samples_done = 0;   // a pixel, in finished rounds
+  ErrorEstimate error{};           // of a finished round, not always the last one
+  std::int64_t error_samples = 0;  // of that round
+  double seconds_a_sample = 0;     // of a pixel; 0: not known yet
 };
 using ProgressFunction = std::function<void(const Progress&)>;
 
@@ -95,7 +100,6 @@ struct Picture {
   // How often code ran that only this effect calls for; 0 for effects that are not simulated.
   std::array<std::uint64_t, ir::effect_count> effect_runs{};
   std::uint64_t forgotten_media = 0;  // bodies in more than eight others: the outermost was dropped
-  ErrorEstimate error;
 };
 
 // Which of the compiled kernels renders a picture simulated with `effects`: the smallest that holds

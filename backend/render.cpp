@@ -3,31 +3,52 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
-#include "backend/backend.hpp"
 #include "backend/render_session.hpp"
-#include "backend/stop_rule.hpp"
 
 namespace scenec::backend {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::int64_t most_samples = 1'048'576;
+// `stop.error` needs this many samples, and two looks that agree, before it is believed.
+constexpr std::int64_t samples_before_error = 64;
+// A round should end in time for a checkpoint, a look or a stop by time.
+constexpr double longest_round = 1.5;
+// An estimate for the progress line may take this part of the time.
+constexpr double share_of_estimates = 0.01;
+
+// The next number of samples at which `stop.error` is looked at: they grow by a quarter, so that
+// stopping at one costs little.
+std::int64_t next_look(std::int64_t done) {
+  std::int64_t look = 1;
+  while (look <= done) look += std::max<std::int64_t>(1, look / 4);
+  return look;
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 // Tells the caller how far the picture is, at most every few milliseconds.
 class ProgressReporter {
  public:
-  ProgressReporter(const ProgressFunction& report, Clock::time_point start)
-      : report_(report), last_(start) {}
+  explicit ProgressReporter(const ProgressFunction& report)
+      : report_(report), last_(Clock::now()) {}
 
-  void update(double fraction, std::int64_t samples_done) {
+  [[nodiscard]] bool is_wanted() const { return static_cast<bool>(report_); }
+  void update(Progress progress) {
     if (!report_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return;
     const Clock::time_point now = Clock::now();
-    if (now - last_ < std::chrono::milliseconds(5) && fraction < 1) return;
+    if (now - last_ < std::chrono::milliseconds(5) && progress.fraction < 1) return;
     last_ = now;
-    best_ = std::max(best_, std::clamp(fraction, 0.0, 1.0));
-    report_({best_, samples_done});
+    best_ = std::max(best_, std::clamp(progress.fraction, 0.0, 1.0));
+    progress.fraction = best_;
+    report_(progress);
   }
 
  private:
@@ -39,55 +60,119 @@ class ProgressReporter {
 
 class Renderer {
  public:
-  Renderer(const RenderScene& scene, const ir::RenderSettings& settings,
-           const ir::EffectSet& effects, ThreadPool& pool, std::stop_token stop,
-           const ProgressFunction& progress, KernelChoice kernel)
-      : settings_(settings),
-        stop_(std::move(stop)),
-        start_(Clock::now()),
-        progress_(progress, start_),
-        session_(scene, settings, effects, pool, kernel),
-        rule_(settings) {}
+  Renderer(RenderSession& session, const ir::RenderSettings& settings, const std::stop_token& stop,
+           const RenderHooks& hooks, StopState& state)
+      : session_(session),
+        settings_(settings),
+        stop_(stop),
+        hooks_(hooks),
+        state_(state),
+        reporter_(hooks.progress),
+        cap_(sample_cap_of(settings)) {}
 
-  Picture run() {
-    bool complete = true;
-    while (complete && !good_enough()) {
-      const double first = static_cast<double>(session_.samples());
-      const std::int64_t count = rule_.next_round(session_.samples());
-      complete = session_.advance(count, stop_, [&](double part) {
-        progress_.update(fraction(first + part * static_cast<double>(count)), session_.samples());
-      });
+  StopReason run() {
+    while (session_.samples() < cap_) {
+      const std::int64_t look = std::min(cap_, next_look(session_.samples()));
+      if (!advance(std::min(look - session_.samples(), longest_count()))) {
+        return StopReason::request;
+      }
+      if (hooks_.between) hooks_.between();
+      if (session_.samples() == look && error_is_reached()) return StopReason::error;
+      if (settings_.stop.time && state_.seconds >= settings_.stop.time->value)
+        return StopReason::time;
     }
-    Picture picture = session_.picture();
-    picture.complete = complete;
-    return picture;
+    return StopReason::samples;
   }
 
  private:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
+  [[nodiscard]] std::int64_t longest_count() const {
+    if (told_.seconds_a_sample <= 0) return 1;
+    double seconds = longest_round;
+    if (settings_.stop.time)
+      seconds = std::min(seconds, std::max(0.0, settings_.stop.time->value - state_.seconds));
+    const double count = std::min(seconds / told_.seconds_a_sample, 1e6);
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(count));
   }
 
-  bool good_enough() {
-    const bool asked = rule_.needs_error(session_.samples());
-    return rule_.holds(session_.samples(), seconds(), asked ? session_.error() : ErrorEstimate{});
+  bool advance(std::int64_t count) {
+    const Clock::time_point start = Clock::now();
+    const double first = static_cast<double>(session_.samples());
+    const bool finished = session_.advance(count, stop_, [&](double part) {
+      if (!reporter_.is_wanted()) return;
+      Progress progress = told_;
+      progress.fraction = fraction(first + part * static_cast<double>(count),
+                                   state_.seconds + seconds_since(start));
+      reporter_.update(progress);
+    });
+    const double seconds = seconds_since(start);
+    state_.seconds += seconds;
+    told_.samples_done = session_.samples();
+    if (finished) {
+      told_.seconds_a_sample = seconds / static_cast<double>(count);
+      if (reporter_.is_wanted()) estimate_now_and_then();
+    }
+    return finished;
   }
 
-  [[nodiscard]] double fraction(double samples) const {
-    double f = samples / static_cast<double>(rule_.cap());
-    if (settings_.stop.time) f = std::fmax(f, seconds() / settings_.stop.time->value);
+  void estimate_now_and_then() {
+    if (state_.seconds - estimated_at_ < estimate_cost_ / share_of_estimates) return;
+    const Clock::time_point start = Clock::now();
+    look();
+    estimate_cost_ = seconds_since(start);
+    estimated_at_ = state_.seconds;
+  }
+  const ErrorEstimate& look() {
+    told_.error = session_.error();
+    told_.error_samples = session_.samples();
+    return told_.error;
+  }
+
+  bool error_is_reached() {
+    if (!settings_.stop.error || session_.samples() < samples_before_error) return false;
+    const ErrorEstimate& estimate = look();
+    const bool now = estimate.known && estimate.relative.value <= *settings_.stop.error;
+    const bool before = std::exchange(state_.error_reached, now);
+    return now && before;
+  }
+
+  // Of the work the rule that is nearest calls for.
+  [[nodiscard]] double fraction(double samples, double seconds) const {
+    double f = samples / static_cast<double>(cap_);
+    if (settings_.stop.time) f = std::max(f, seconds / settings_.stop.time->value);
+    if (settings_.stop.error && told_.error.known) {
+      const double missing = told_.error.relative.value / *settings_.stop.error;
+      const double wanted = static_cast<double>(told_.error_samples) * missing * missing;
+      f = std::max(f, samples / std::max(wanted, static_cast<double>(samples_before_error)));
+    }
     return f;
   }
 
+  RenderSession& session_;
   const ir::RenderSettings& settings_;
-  std::stop_token stop_;
-  Clock::time_point start_;
-  ProgressReporter progress_;
-  RenderSession session_;
-  StopRule rule_;
+  const std::stop_token& stop_;
+  const RenderHooks& hooks_;
+  StopState& state_;
+  ProgressReporter reporter_;
+  std::int64_t cap_;
+  Progress told_;
+  double estimate_cost_ = 0;
+  double estimated_at_ = 0;
 };
 
 }  // namespace
+
+std::int64_t sample_cap_of(const ir::RenderSettings& s) {
+  if (s.samples) return *s.samples;
+  if (s.stop.samples) return *s.stop.samples;
+  if (s.stop.error || s.stop.time) return most_samples;
+  if (s.film == ir::FilmKind::course) return 1;
+  return s.method == ir::Method::path ? 64 : 16;
+}
+
+StopReason render_to_end(RenderSession& session, const ir::RenderSettings& settings,
+                         const std::stop_token& stop, const RenderHooks& hooks, StopState& state) {
+  return Renderer(session, settings, stop, hooks, state).run();
+}
 
 Picture render(const RenderScene& scene, const ir::RenderSettings& settings, ThreadPool& pool,
                std::stop_token stop, const ProgressFunction& progress) {
@@ -98,8 +183,12 @@ Picture render(const RenderScene& scene, const ir::RenderSettings& settings, Thr
 Picture render(const RenderScene& scene, const ir::RenderSettings& settings,
                const ir::EffectSet& effects, ThreadPool& pool, std::stop_token stop,
                const ProgressFunction& progress, KernelChoice kernel) {
-  SCENEC_ASSERT(settings.camera.valid());
-  return Renderer(scene, settings, effects, pool, std::move(stop), progress, kernel).run();
+  RenderSession session(scene, settings, effects, pool, kernel);
+  StopState state;
+  const StopReason reason = render_to_end(session, settings, stop, {progress}, state);
+  Picture picture = session.picture();
+  picture.complete = reason != StopReason::request;
+  return picture;
 }
 
 }  // namespace scenec::backend

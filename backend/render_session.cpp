@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "backend/film/error.hpp"
 #include "backend/film/film.hpp"
 #include "backend/integrators/kernel.hpp"
 
@@ -11,6 +12,8 @@ namespace scenec::backend {
 namespace {
 
 constexpr std::size_t tile_side = 16;
+// Fewer say next to nothing.
+constexpr std::int64_t samples_before_estimate = 2 * replicate_count;
 
 std::int64_t part_of(std::int64_t pixels, std::int64_t step) {
   return std::max<std::int64_t>(1, (pixels + step - 1) / step);
@@ -41,7 +44,7 @@ struct RenderSession::Impl {
         effects(with_effects),
         pool(on_pool),
         kernel(scene, settings, effects, choice, camera),
-        film(settings, Film::Squares::yes),
+        film(settings),
         workers(pool.size()),
         tiles_x((film.region_width() + tile_side - 1) / tile_side),
         tiles_y((film.region_height() + tile_side - 1) / tile_side) {}
@@ -96,7 +99,7 @@ bool RenderSession::advance(std::int64_t samples, const std::stop_token& stop,
     my.film.drop_round();
     return false;
   }
-  my.film.finish_round(samples, my.pool);
+  my.film.finish_round(samples);
   return true;
 }
 
@@ -112,12 +115,12 @@ Picture RenderSession::picture() const {
     for (std::size_t i = 0; i < ir::effect_count; ++i)
       picture.effect_runs[i] += worker.rays.effects[i];
   }
-  picture.error = error();
   return picture;
 }
 
 ErrorEstimate RenderSession::error() const {
-  return impl_->film.error();
+  if (impl_->film.samples() < samples_before_estimate) return {};
+  return error_of(impl_->film, impl_->pool);
 }
 
 std::uint64_t RenderSession::rays() const {

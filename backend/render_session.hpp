@@ -59,4 +59,26 @@ class RenderSession {
                                                     int step, const std::stop_token& stop,
                                                     const ir::Camera* camera = nullptr);
 
+enum class StopReason : std::uint8_t { samples, error, time, request };
+
+// What a render to the end must know beside the session to be taken up again.
+struct StopState {
+  bool error_reached = false;  // at the last of the points where it was looked at
+  double seconds = 0;          // rendered so far
+};
+struct RenderHooks {
+  ProgressFunction progress;           // from worker threads
+  std::function<void()> between = {};  // after every finished round, from the caller's thread
+};
+// Advances the session until the settings' `samples` and `stop` hold, whichever comes first.
+//
+// `stop.error` is looked at where the samples have grown by a quarter, from 64 on, and holds when
+// it did the last time too: with the same scene, seed and binary it stops at the same sample, with
+// any threads and however often the render was taken up again. Other rules hold at round's ends;
+// rounds take a second or two.
+StopReason render_to_end(RenderSession& session, const ir::RenderSettings& settings,
+                         const std::stop_token& stop, const RenderHooks& hooks, StopState& state);
+// The samples a pixel at which a render with these settings ends at the latest.
+[[nodiscard]] std::int64_t sample_cap_of(const ir::RenderSettings& settings);
+
 }  // namespace scenec::backend

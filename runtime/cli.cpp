@@ -128,7 +128,11 @@ std::optional<UsageError> find_operand_problem(const Options& options) {
                           ? "`explain effects` needs the name of a scene file"
                           : "`explain effects` takes one scene at a time"};
   }
-  if (options.operands.size() > 1 && !takes_many && !explains_effects) {
+  const bool takes_two = verb.operands == "A B";
+  if (takes_two && options.operands.size() != 2) {
+    return UsageError{fmt::format("`{}` needs the names of two files", verb.name)};
+  }
+  if (options.operands.size() > 1 && !takes_many && !takes_two && !explains_effects) {
     return UsageError{fmt::format("`{}` takes one {} at a time; `{}` is a second one", verb.name,
                                   takes_scenes ? "scene" : "name",
                                   printable(options.operands[1]))};

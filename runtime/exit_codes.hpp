@@ -14,6 +14,7 @@ enum class ExitCode : int {
   file_error = 3,   // the scene file itself, or the output
   limit = 4,        // a limit was the only cause
   internal = 5,     // a mistake in scenec
+  hung_up = 129,
   interrupted = 130,
   terminated = 143,
 };
@@ -26,12 +27,14 @@ struct ExitCodeInfo {
 [[nodiscard]] inline std::span<const ExitCodeInfo> all_exit_codes() {
   static constexpr std::array table{
       ExitCodeInfo{ExitCode::ok, "done"},
-      ExitCodeInfo{ExitCode::scene_error, "an error in the scene or in a file it names"},
+      ExitCodeInfo{ExitCode::scene_error,
+                   "an error in the scene or in a file it names; pictures beyond `--tolerance`"},
       ExitCodeInfo{ExitCode::usage,
                    "a mistake on the command line, a bad parameter of the scene included"},
       ExitCodeInfo{ExitCode::file_error, "the scene file or an output cannot be read or written"},
       ExitCodeInfo{ExitCode::limit, "a limit was the only cause"},
       ExitCodeInfo{ExitCode::internal, "a mistake in scenec"},
+      ExitCodeInfo{ExitCode::hung_up, "stopped by SIGHUP; the picture so far is written"},
       ExitCodeInfo{ExitCode::interrupted, "stopped by SIGINT; the picture so far is written"},
       ExitCodeInfo{ExitCode::terminated, "stopped by SIGTERM; the picture so far is written"},
   };

@@ -48,6 +48,9 @@ Options options_in_frame(const Options& options, std::int64_t frame) {
   result.frame = frame;
   result.output = path_in_frame(output_of(options), frame);
   if (!result.stats_file.empty()) result.stats_file = path_in_frame(result.stats_file, frame);
+  if (!result.checkpoint.empty() && result.checkpoint != "off") {
+    result.checkpoint = path_in_frame(result.checkpoint, frame);
+  }
   if (!result.dependency_file.empty() && !share_dependencies(options)) {
     result.dependency_file = path_in_frame(result.dependency_file, frame);
   }

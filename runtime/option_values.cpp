@@ -88,6 +88,15 @@ Parsed<ir::Region> parse_region(std::string_view text) {
   return ir::Region{corner[0], corner[1], corner[2], corner[3]};
 }
 
+Parsed<double> parse_share(std::string_view text) {
+  const bool is_percentage = text.ends_with('%');
+  if (is_percentage) text.remove_suffix(1);
+  const std::optional<double> value =
+      text.empty() || !is_digit(text.front()) ? std::nullopt : parse_double(text);
+  if (!value || !(*value > 0)) return Failure{std::string("a number above zero: `1%` or `0.01`")};
+  return is_percentage ? *value / 100 : *value;
+}
+
 Parsed<Time> parse_duration(std::string_view text) {
   const std::string expected = "a time above zero with its unit: `500ms`, `30s`, `2min` or `1.5h`";
   for (const DurationUnit& unit : duration_units) {

@@ -22,6 +22,8 @@ using Parsed = Result<T, std::string>;
 [[nodiscard]] Parsed<ir::ImageSize> parse_size(std::string_view text);
 // `x0,y0,x1,y1` in pixels from the top left, x0 < x1 and y0 < y1.
 [[nodiscard]] Parsed<ir::Region> parse_region(std::string_view text);
+// A number above zero, `0.01`, or as a percentage, `1%`.
+[[nodiscard]] Parsed<double> parse_share(std::string_view text);
 // A number with its unit glued on: `500ms 30s 2min 1.5h`; above zero.
 [[nodiscard]] Parsed<Time> parse_duration(std::string_view text);
 

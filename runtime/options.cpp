@@ -17,13 +17,17 @@ using Problem = std::optional<std::string>;
 
 constexpr VerbSet render_only{Verb::render};
 constexpr VerbSet picturing{Verb::render, Verb::watch};
-constexpr VerbSet compiling{Verb::render, Verb::watch, Verb::check, Verb::dump, Verb::explain};
+constexpr VerbSet rendering{Verb::render, Verb::watch, Verb::study};
+constexpr VerbSet compiling{Verb::render, Verb::watch, Verb::check, Verb::dump, Verb::explain,
+                            Verb::study};
 constexpr VerbSet reading{Verb::render,  Verb::watch, Verb::check,  Verb::dump,
-                          Verb::convert, Verb::fmt,   Verb::explain};
-constexpr VerbSet diagnosing{Verb::render, Verb::check, Verb::dump, Verb::convert, Verb::explain};
+                          Verb::convert, Verb::fmt,   Verb::explain, Verb::study};
+constexpr VerbSet diagnosing{Verb::render,  Verb::check,   Verb::dump,
+                             Verb::convert, Verb::explain, Verb::study};
 constexpr VerbSet rooted{Verb::render, Verb::watch,   Verb::check,
-                         Verb::dump,   Verb::convert, Verb::explain};
-constexpr VerbSet writing{Verb::render, Verb::watch, Verb::dump, Verb::convert};
+                         Verb::dump,   Verb::convert, Verb::explain, Verb::study};
+constexpr VerbSet writing{Verb::render,  Verb::watch, Verb::dump,
+                          Verb::convert, Verb::diff,  Verb::study};
 constexpr VerbSet watch_only{Verb::watch};
 
 constexpr std::int64_t largest_sample_count = 1048576;
@@ -121,17 +125,19 @@ Problem store_display_server(Options& options, std::string_view text) {
 
 using Text = std::string_view;
 constexpr std::array option_table{
-    OptionRow{"-o,--output", "FILE", "where to write (pictures: .png, .exr or .bmp)", writing,
-              [](Options& o, Text v) { return store_path(o.output, v); }},
-    OptionRow{"--size", "WxH", "width and height in pixels", picturing,
+    OptionRow{"-o,--output", "FILE", "where to write (pictures: .png, .exr or .bmp; study: a folder)",
+              writing, [](Options& o, Text v) { return store_path(o.output, v); }},
+    OptionRow{"--size", "WxH", "width and height in pixels", rendering,
               [](Options& o, Text v) { return store_parsed(o.size, parse_size(v)); }},
     OptionRow{"--samples", "N", "samples a pixel; replaces the scene's samples and stop", picturing,
               [](Options& o, Text v) {
                 return store_parsed(o.samples, parse_whole_number(v, 1, largest_sample_count));
               }},
-    OptionRow{"--time", "TIME", "stop after this time: 500ms, 30s, 2min, 1h", picturing,
+    OptionRow{"--error", "E", "stop at this relative error of the picture: 1%", render_only,
+              [](Options& o, Text v) { return store_parsed(o.error, parse_share(v)); }},
+    OptionRow{"--time", "TIME", "stop after this time: 500ms, 30s, 2min, 1h", rendering,
               [](Options& o, Text v) { return store_parsed(o.time, parse_duration(v)); }},
-    OptionRow{"--seed", "N", "seed of all random choices", picturing,
+    OptionRow{"--seed", "N", "seed of all random choices", rendering,
               [](Options& o, Text v) {
                 return store_parsed(
                     o.seed, parse_whole_number(v, 0, std::numeric_limits<std::int64_t>::max()));
@@ -140,7 +146,7 @@ constexpr std::array option_table{
               [](Options& o, Text v) {
                 return store_choice<ir::Method>(o.method, v, ir::EnumNames<ir::Method>::names);
               }},
-    OptionRow{"--camera", "NAME", "which camera of the scene", picturing,
+    OptionRow{"--camera", "NAME", "which camera of the scene", rendering,
               [](Options& o, Text v) -> Problem {
                 o.camera = std::string(v);
                 return std::nullopt;
@@ -222,11 +228,27 @@ constexpr std::array option_table{
               VerbSet{Verb::render, Verb::watch, Verb::check},
               [](Options& o, Text v) { return store_parsed(o.cache_budget, parse_byte_count(v)); }},
     OptionRow{"--threads", "N", "threads to work with (default: all)",
-              VerbSet{Verb::render, Verb::watch, Verb::check},
+              VerbSet{Verb::render, Verb::watch, Verb::check, Verb::study},
               [](Options& o, Text v) {
                 return store_parsed(o.threads, parse_whole_number(v, 1, largest_thread_count));
               }},
-    OptionRow{"--progress", "STYLE", "auto, plain, json or none", render_only,
+    OptionRow{"--checkpoint", "FILE|off",
+              "keep the samples here (default: beside the picture until it is done)", render_only,
+              [](Options& o, Text v) { return store_path(o.checkpoint, v); }},
+    OptionRow{
+        "--checkpoint-interval", "TIME", "how often the checkpoint is written (default 1min)",
+        render_only,
+        [](Options& o, Text v) { return store_parsed(o.checkpoint_interval, parse_duration(v)); }},
+    OptionRow{"--resume", "", "go on from the checkpoint", render_only,
+              [](Options& o, Text) -> Problem {
+                o.resume = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
+    OptionRow{"--tolerance", "E", "exit code 1 if the relative error is above this: 1%",
+              VerbSet{Verb::diff},
+              [](Options& o, Text v) { return store_parsed(o.tolerance, parse_share(v)); }},
+    OptionRow{"--progress", "STYLE", "auto, plain, json or none", rendering,
               [](Options& o, Text v) {
                 constexpr std::array<Text, 4> names{"auto", "plain", "json", "none"};
                 return store_choice<ProgressStyle>(o.progress, v, names);
@@ -303,7 +325,7 @@ constexpr std::array option_table{
               },
               ValueNeed::none},
     OptionRow{"--json", "", "as JSON (the default of schema); watch: events, one object a line",
-              VerbSet{Verb::schema, Verb::explain, Verb::watch},
+              VerbSet{Verb::schema, Verb::explain, Verb::watch, Verb::diff},
               [](Options& o, Text) -> Problem {
                 o.markdown = false;
                 o.json = true;
@@ -338,6 +360,7 @@ std::string picture_command(const Options& options) {
     add("--size", fmt::format("{}x{}", options.size->width, options.size->height));
   }
   if (options.samples) add("--samples", std::to_string(*options.samples));
+  if (options.error) add("--error", short_number_text(*options.error));
   if (options.time) add("--time", short_number_text(options.time->value) + "s");
   if (options.seed) add("--seed", std::to_string(*options.seed));
   if (options.method) {

@@ -40,6 +40,7 @@ struct Options {
   // What changes the picture.
   std::optional<ir::ImageSize> size;
   std::optional<std::int64_t> samples;
+  std::optional<double> error;
   std::optional<Time> time;
   std::optional<std::int64_t> seed;
   std::optional<ir::Method> method;
@@ -71,6 +72,10 @@ struct Options {
   std::string dependency_file;                  // -MF; empty: named after the output
   std::vector<std::string> dependency_targets;  // -MT; empty: the output
   bool phony_dependencies = false;              // -MP
+  std::string checkpoint;  // `off` or a file; empty: beside the output while it is made
+  std::optional<Time> checkpoint_interval;
+  bool resume = false;
+  std::optional<double> tolerance;  // diff
   ProgressStyle progress = ProgressStyle::automatic;
   StatsForm stats = StatsForm::none;
   std::string stats_file;  // of StatsForm::json

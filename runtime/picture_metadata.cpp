@@ -6,6 +6,7 @@
 #include <ctime>
 #include <string>
 
+#include "base/text.hpp"
 #include "runtime/cli.hpp"
 
 namespace scenec::runtime {
@@ -29,13 +30,22 @@ std::string utc_now() {
 
 backend::EncodeOptions encode_options(const Options& options, const ir::Scene& scene,
                                       const ir::RenderSettings& settings,
-                                      const backend::Picture& picture, unsigned threads) {
+                                      const backend::Picture& picture, unsigned threads,
+                                      const backend::ErrorEstimate& error) {
   backend::EncodeOptions encode{.half = options.half, .metadata = {}};
   encode.metadata = {{"software", std::string(version_text)},
                      {"scenec/scene_hash", scene.hash.hex()},
                      {"scenec/command", picture_command(options)},
                      {"scenec/seed", std::to_string(settings.seed)},
                      {"scenec/samples", std::to_string(picture.samples)}};
+  if (error.known) {
+    const auto add = [&](const char* name, double value) {
+      encode.metadata.emplace_back(name, short_number_text(value));
+    };
+    add("scenec/error", error.relative.value);
+    add("scenec/error_low", error.relative.low);
+    add("scenec/error_high", error.relative.high);
+  }
   if (options.stamp) {
     encode.metadata.emplace_back("scenec/date", utc_now());
     encode.metadata.emplace_back("scenec/host", host_name());

@@ -10,6 +10,7 @@ namespace scenec::runtime {
 [[nodiscard]] backend::EncodeOptions encode_options(const Options& options, const ir::Scene& scene,
                                                     const ir::RenderSettings& settings,
                                                     const backend::Picture& picture,
-                                                    unsigned threads);
+                                                    unsigned threads,
+                                                    const backend::ErrorEstimate& error = {});
 
 }  // namespace scenec::runtime

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "base/text.hpp"
 
 namespace scenec::runtime {
 
@@ -29,6 +32,27 @@ std::string duration_text(double seconds) {
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string error_text(const backend::ErrorBand& error) {
+  const double half = 50 * (error.high - error.low);
+  // Two digits of the band, and no more of the figure than the band lets stand.
+  const int decimals =
+      half > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 6) : 2;
+  return fmt::format("{:.{}f} % ± {:.{}f}", 100 * error.value, decimals, half, decimals);
+}
+
+std::string outlook_text(const backend::Progress& progress) {
+  constexpr std::array levels{0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
+  if (!progress.error.known || progress.seconds_a_sample <= 0) return {};
+  const double now = progress.error.relative.value;
+  const auto next = std::find_if(levels.begin(), levels.end(), [&](double l) { return l < now; });
+  if (next == levels.end()) return {};
+  const double ratio = now / *next;
+  const double samples = static_cast<double>(progress.error_samples) * ratio * ratio -
+                         static_cast<double>(progress.samples_done);
+  return fmt::format("{} % in {}", short_number_text(100 * *next),
+                     duration_text(samples * progress.seconds_a_sample));
 }
 
 ProgressPrinter::ProgressPrinter(ProgressStyle style, const Environment& environment)
@@ -64,6 +88,11 @@ void ProgressPrinter::update(const backend::Progress& progress) {
 void ProgressPrinter::print_rewritten(const backend::Progress& progress, Clock::time_point now) {
   std::string line =
       fmt::format("\r{:3} %  {} samples a pixel", percent_of(progress), progress.samples_done);
+  if (progress.error.known) {
+    line += " · " + error_text(progress.error.relative);
+    if (const std::string outlook = outlook_text(progress); !outlook.empty())
+      line += " · " + outlook;
+  }
   if (progress.fraction >= least_fraction_for_estimate) {
     const double left = seconds_between(start_, now) * (1 / progress.fraction - 1);
     line += fmt::format("  {} left", duration_text(left));
@@ -79,9 +108,15 @@ void ProgressPrinter::print_plain(const backend::Progress& progress) {
 }
 
 void ProgressPrinter::print_json(const backend::Progress& progress, Clock::time_point now) {
-  err_ << fmt::format(R"({{"event":"progress","fraction":{:.4f},"samples":{},"seconds":{:.3f}}})",
+  std::string error;
+  if (progress.error.known) {
+    const backend::ErrorBand& band = progress.error.relative;
+    error = fmt::format(R"(,"error":{:.6g},"error_low":{:.6g},"error_high":{:.6g})", band.value,
+                        band.low, band.high);
+  }
+  err_ << fmt::format(R"({{"event":"progress","fraction":{:.4f},"samples":{},"seconds":{:.3f}{}}})",
                       std::clamp(progress.fraction, 0.0, 1.0), progress.samples_done,
-                      seconds_between(start_, now))
+                      seconds_between(start_, now), error)
        << '\n'
        << std::flush;
 }

@@ -41,5 +41,10 @@ class ProgressPrinter {
 
 // "3 s", "4 min 10 s", "2 h 5 min".
 [[nodiscard]] std::string duration_text(double seconds);
+// "2.13 % ± 0.04": the relative error with half its band.
+[[nodiscard]] std::string error_text(const backend::ErrorBand& error);
+// "1 % in 41 s": the next lower round figure of the error and when it will be reached, as errors
+// fall with the square root of the samples; empty when that cannot be told.
+[[nodiscard]] std::string outlook_text(const backend::Progress& progress);
 
 }  // namespace scenec::runtime

@@ -12,7 +12,7 @@ namespace scenec::runtime {
 
 namespace {
 
-constexpr std::int64_t sample_cap = 1048576;  // of `--time` without `--samples`
+constexpr std::int64_t sample_cap = 1048576;  // of `--time` and `--error` without `--samples`
 
 std::optional<ir::CameraId> find_camera(const ir::Scene& scene, const std::string& name,
                                         const Environment& environment) {
@@ -44,9 +44,10 @@ std::optional<ir::RenderSettings> settings_of(const Options& options, const ir::
   if (options.method) settings.method = *options.method;
   if (options.seed) settings.seed = *options.seed;
   if (options.region) settings.region = options.region;
-  if (options.samples || options.time) {
+  if (options.samples || options.error || options.time) {
     settings.samples = options.samples.value_or(sample_cap);
     settings.stop = {};
+    settings.stop.error = options.error;
     settings.stop.time = options.time;
   }
   if (const auto& region = settings.region;

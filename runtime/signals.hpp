@@ -1,5 +1,5 @@
-// SIGINT and SIGTERM as a stop request. Before allow_graceful_stop() the first signal ends the
-// process at once (there is nothing to save); after it the first asks for a stop and the second
+// SIGINT, SIGTERM and SIGHUP as a stop request. Before allow_graceful_stop() the first signal ends
+// the process at once (there is nothing to save); after it the first asks for a stop and the second
 // ends the process. Make one before any thread is started: threads inherit the blocked signals.
 #pragma once
 

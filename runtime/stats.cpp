@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/progress.hpp"
+
 namespace scenec::runtime {
 
 namespace {
@@ -57,6 +59,10 @@ std::string stats_table(const RunStats& stats) {
   const double rendering = stats.seconds_of(render_phase);
   text += fmt::format("{:<18}{:>12.3f} s\n", "total", total);
   text += fmt::format("{:<18}{:>12}\n", "samples a pixel", stats.samples);
+  if (stats.error.known) {
+    text += fmt::format("{:<18}{:>12}\n", "error", error_text(stats.error.relative));
+    text += fmt::format("{:<18}{:>12.4g}\n", "RMSE", stats.error.absolute.value);
+  }
   text += fmt::format("{:<18}{:>12.3f} M/s\n", "samples",
                       per_second(sample_count(stats), rendering) * 1e-6);
   text += fmt::format("{:<18}{:>12}\n", "rays", stats.rays);
@@ -77,6 +83,13 @@ std::string stats_json(const RunStats& stats) {
   for (const auto& [name, seconds] : stats.phases) json["seconds"][name] = seconds;
   const double rendering = stats.seconds_of(render_phase);
   json["samples_per_pixel"] = stats.samples;
+  if (stats.error.known) {
+    const auto put = [&](const char* name, const backend::ErrorBand& band) {
+      json[name] = {{"value", band.value}, {"low", band.low}, {"high", band.high}};
+    };
+    put("error", stats.error.relative);
+    put("rmse", stats.error.absolute);
+  }
   json["samples_per_second"] = per_second(sample_count(stats), rendering);
   json["rays"] = stats.rays;
   json["rays_per_second"] = per_second(static_cast<double>(stats.rays), rendering);

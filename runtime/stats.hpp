@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "backend/backend.hpp"
 #include "base/content_cache.hpp"
 
 namespace scenec::runtime {
@@ -22,6 +23,7 @@ struct RunStats {
   std::int64_t samples = 0;                                        // a pixel
   std::int64_t pixels = 0;
   std::uint64_t dropped_samples = 0;
+  backend::ErrorEstimate error;
   std::optional<ContentCacheCounts> cache;  // nullopt: nothing is kept
 
   [[nodiscard]] double seconds_of(std::string_view phase) const;

@@ -15,79 +15,61 @@ ir::Region region_of(const ir::RenderSettings& settings) {
           std::clamp<std::int64_t>(r.x1, 0, whole.x1), std::clamp<std::int64_t>(r.y1, 0, whole.y1)};
 }
 
-Film::Film(const ir::RenderSettings& settings, Squares squares)
-    : settings_(settings), region_(region_of(settings)), keep_squares_(squares == Squares::yes) {
+Film::Film(const ir::RenderSettings& settings) : settings_(settings), region_(region_of(settings)) {
   width_ = static_cast<std::size_t>(std::max<std::int64_t>(0, region_.x1 - region_.x0));
   height_ = static_cast<std::size_t>(std::max<std::int64_t>(0, region_.y1 - region_.y0));
-  for (const ir::Aov aov : settings.aovs) {
-    if (aov == ir::Aov::variance) keep_squares_ = true;
-    if (aov != ir::Aov::variance && aov != ir::Aov::samples && aov != ir::Aov::trust)
-      keep_extra_ = true;
-  }
+  const auto needs_hits = [](ir::Aov aov) {
+    return aov != ir::Aov::variance && aov != ir::Aov::samples && aov != ir::Aov::trust;
+  };
   const std::size_t pixels = width_ * height_;
-  total_.resize(pixels);
-  round_.resize(pixels);
-  if (keep_squares_) {
-    total_squares_.resize(pixels);
-    round_squares_.resize(pixels);
-  }
-  if (keep_extra_) {
-    total_extra_.resize(pixels);
-    round_extra_.resize(pixels);
-  }
+  sums_.resize(pixels);
+  if (settings.film != ir::FilmKind::course) replicates_.resize(pixels);
+  if (std::any_of(settings.aovs.begin(), settings.aovs.end(), needs_hits)) extra_.resize(pixels);
 }
 
-void Film::Sums::merge(const Sums& other) {
-  for (int c = 0; c < 3; ++c) rgb[c] += other.rgb[c];
-  weight += other.weight;
-  count += other.count;
-  covered += other.covered;
-  hits += other.hits;
+Film::Pixel Film::open(std::size_t x, std::size_t y) {
+  Pixel pixel;
+  pixel.film_ = this;
+  pixel.index_ = y * width_ + x;
+  pixel.sums_ = sums_.done[pixel.index_];
+  if (keeps_replicates()) pixel.replicates_ = replicates_.done[pixel.index_];
+  if (!extra_.done.empty()) extra_.next[pixel.index_] = extra_.done[pixel.index_];
+  return pixel;
 }
 
-void Film::Extra::merge(const Extra& other) {
-  for (int c = 0; c < 3; ++c) {
-    albedo[c] += other.albedo[c];
-    normal[c] += other.normal[c];
-    position[c] += other.position[c];
-  }
-  depth += other.depth;
-  for (int c = 0; c < 2; ++c) uv[c] += other.uv[c];
-  // The first sample that hit something names the pixel's item.
-  if (!identified && other.identified) {
-    item = other.item;
-    material = other.material;
-    identified = true;
-  }
-}
-
-void Film::add(std::size_t x, std::size_t y, const FilmSample& sample) {
+void Film::Pixel::add(std::int64_t number, const FilmSample& sample) {
   if (!is_finite(sample.radiance)) {
-    dropped_.fetch_add(1, std::memory_order_relaxed);
+    film_->refused_.dropped.fetch_add(1, std::memory_order_relaxed);
     return;
   }
-  const std::size_t pixel = index(x, y);
-  Sums& sums = round_[pixel];
-  const double channels[3] = {sample.radiance.r, sample.radiance.g, sample.radiance.b};
+  const double channels[3] = {sample.weight * sample.radiance.r, sample.weight * sample.radiance.g,
+                              sample.weight * sample.radiance.b};
   bool fits = true;
-  for (int c = 0; c < 3; ++c) {
-    fits = sums.rgb[c].add(sample.weight * channels[c]) && fits;
-    if (keep_squares_)
-      round_squares_[pixel].rgb[c].add(
-          std::fmin(channels[c] * channels[c], FixedSum::largest_term));
+  for (std::size_t c = 0; c < 3; ++c) fits = sums_.rgb[c].add(channels[c]) && fits;
+  if (!fits) film_->refused_.saturated.fetch_add(1, std::memory_order_relaxed);
+  const auto replicate = static_cast<std::size_t>(number) % replicate_count;
+  if (replicate < replicates_.rgb.size()) {
+    for (std::size_t c = 0; c < 3; ++c)
+      replicates_.rgb[replicate][c] +=
+          std::clamp(channels[c], -FixedSum::largest_term, FixedSum::largest_term);
+    replicates_.weight[replicate] += sample.weight;
   }
-  if (!fits) saturated_.fetch_add(1, std::memory_order_relaxed);
-  sums.weight += sample.weight;
-  sums.count += 1;
+  sums_.weight += sample.weight;
+  sums_.count += 1;
   if (sample.covered) {
-    sums.covered += sample.weight;
-    sums.hits += 1;
+    sums_.covered += sample.weight;
+    sums_.hits += 1;
   }
-  if (keep_extra_ && sample.first.hit) add_extra(pixel, sample);
+  if (sample.first.hit && !film_->extra_.next.empty())
+    film_->add_extra(film_->extra_.next[index_], sample);
 }
 
-void Film::add_extra(std::size_t pixel, const FilmSample& sample) {
-  Extra& extra = round_extra_[pixel];
+void Film::Pixel::close() {
+  film_->sums_.next[index_] = sums_;
+  if (film_->keeps_replicates()) film_->replicates_.next[index_] = replicates_;
+}
+
+void Film::add_extra(Extra& extra, const FilmSample& sample) const {
   const FirstHit& first = sample.first;
   const double values[3][3] = {{first.albedo.r, first.albedo.g, first.albedo.b},
                                {first.normal.x, first.normal.y, first.normal.z},
@@ -100,6 +82,7 @@ void Film::add_extra(std::size_t pixel, const FilmSample& sample) {
   extra.depth.add(first.depth);
   extra.uv[0].add(first.u);
   extra.uv[1].add(first.v);
+  // The first sample that hit something names the pixel's item.
   if (!extra.identified) {
     extra.item = first.item;
     extra.material = first.material;
@@ -107,28 +90,18 @@ void Film::add_extra(std::size_t pixel, const FilmSample& sample) {
   }
 }
 
-void Film::finish_round(std::int64_t samples, ThreadPool& pool) {
-  pool.for_each(height_, [&](std::size_t y, unsigned) {
-    for (std::size_t pixel = y * width_; pixel < (y + 1) * width_; ++pixel) {
-      total_[pixel].merge(round_[pixel]);
-      round_[pixel] = Sums{};
-      if (keep_squares_) {
-        for (int c = 0; c < 3; ++c) total_squares_[pixel].rgb[c] += round_squares_[pixel].rgb[c];
-        round_squares_[pixel] = Squares3{};
-      }
-      if (keep_extra_) {
-        total_extra_[pixel].merge(round_extra_[pixel]);
-        round_extra_[pixel] = Extra{};
-      }
-    }
-  });
+void Film::finish_round(std::int64_t samples) {
+  sums_.swap();
+  replicates_.swap();
+  extra_.swap();
+  dropped_ += refused_.dropped.exchange(0);
+  saturated_ += refused_.saturated.exchange(0);
   samples_ += samples;
 }
 
 void Film::drop_round() {
-  std::fill(round_.begin(), round_.end(), Sums{});
-  std::fill(round_squares_.begin(), round_squares_.end(), Squares3{});
-  std::fill(round_extra_.begin(), round_extra_.end(), Extra{});
+  refused_.dropped = 0;
+  refused_.saturated = 0;
 }
 
 namespace {
@@ -138,44 +111,40 @@ double divisor(std::int32_t weight, std::int32_t count) {
 }
 }  // namespace
 
-double Film::estimated_error() const {
-  double luminance_sum = 0;
-  for (const Sums& s : total_) {
-    const double d = divisor(s.weight, s.count);
-    luminance_sum += luminance({s.rgb[0].value() / d, s.rgb[1].value() / d, s.rgb[2].value() / d});
-  }
-  const double mean_luminance =
-      luminance_sum / static_cast<double>(std::max<std::size_t>(1, total_.size()));
-  const double epsilon = 0.01 * mean_luminance * mean_luminance;
-  double sum = 0;
-  for (std::size_t i = 0; i < total_.size(); ++i) {
-    const double n = static_cast<double>(total_[i].count);
-    if (n < 2) continue;
-    for (int c = 0; c < 3; ++c) {
-      const double mean = total_[i].rgb[c].value() / divisor(total_[i].weight, total_[i].count);
-      const double variance =
-          std::fmax(0, total_squares_[i].rgb[c].value() / n - mean * mean) / (n - 1);
-      const double scale = mean * mean + epsilon;
-      if (scale > 0) sum += variance / scale;
-    }
-  }
-  return std::sqrt(sum / (3 * static_cast<double>(std::max<std::size_t>(1, total_.size()))));
+Rgb Film::mean(std::size_t pixel) const {
+  const PixelSums& s = sums_.done[pixel];
+  const double d = divisor(s.weight, s.count);
+  return {s.rgb[0].value() / d, s.rgb[1].value() / d, s.rgb[2].value() / d};
 }
 
-ErrorEstimate Film::error() const {
-  if (samples_ < 2) return {};
-  const double error = estimated_error();
-  return {true, error, error, error};
+std::optional<ReplicateMeans> Film::replicate_means(std::size_t pixel) const {
+  if (!keeps_replicates()) return std::nullopt;
+  const PixelSums& sums = sums_.done[pixel];
+  const ReplicateSums& parts = replicates_.done[pixel];
+  ReplicateMeans means{};
+  std::array<double, 3> rest{sums.rgb[0].value(), sums.rgb[1].value(), sums.rgb[2].value()};
+  std::int32_t weight_left = sums.weight;
+  for (std::size_t r = 0; r + 1 < replicate_count; ++r) {
+    if (parts.weight[r] <= 0) return std::nullopt;
+    for (std::size_t c = 0; c < 3; ++c) {
+      means[r][c] = parts.rgb[r][c] / parts.weight[r];
+      rest[c] -= parts.rgb[r][c];
+    }
+    weight_left -= parts.weight[r];
+  }
+  if (weight_left <= 0) return std::nullopt;
+  for (std::size_t c = 0; c < 3; ++c) means.back()[c] = rest[c] / weight_left;
+  return means;
 }
 
 std::string Film::save() const {
   std::string out;
   append_packed(out, samples_);
-  append_packed(out, dropped_.load());
-  append_packed(out, saturated_.load());
-  out += packed_bytes_of(total_);
-  out += packed_bytes_of(total_squares_);
-  out += packed_bytes_of(total_extra_);
+  append_packed(out, dropped_);
+  append_packed(out, saturated_);
+  out += packed_bytes_of(sums_.done);
+  out += packed_bytes_of(replicates_.done);
+  out += packed_bytes_of(extra_.done);
   return out;
 }
 
@@ -184,35 +153,36 @@ bool Film::restore(std::string_view bytes) {
   const auto samples = reader.value<std::int64_t>();
   const auto dropped = reader.value<std::uint64_t>();
   const auto saturated = reader.value<std::uint64_t>();
-  auto total = reader.list<std::vector<Sums>>(total_.size());
-  auto squares = reader.list<std::vector<Squares3>>(total_squares_.size());
-  auto extra = reader.list<std::vector<Extra>>(total_extra_.size());
+  auto sums = reader.list<std::vector<PixelSums>>(sums_.done.size());
+  auto replicates = reader.list<std::vector<ReplicateSums>>(replicates_.done.size());
+  auto extra = reader.list<std::vector<Extra>>(extra_.done.size());
   if (!reader.at_end() || samples < 0) return false;
   drop_round();
   samples_ = samples;
   dropped_ = dropped;
   saturated_ = saturated;
-  total_ = std::move(total);
-  total_squares_ = std::move(squares);
-  total_extra_ = std::move(extra);
+  sums_.done = std::move(sums);
+  replicates_.done = std::move(replicates);
+  extra_.done = std::move(extra);
   return true;
 }
 
 Picture Film::picture() const {
+  const std::size_t pixels = sums_.done.size();
   Picture picture;
   picture.width = static_cast<int>(width_);
   picture.height = static_cast<int>(height_);
-  picture.rgb.resize(3 * total_.size());
-  picture.alpha.resize(total_.size());
-  for (std::size_t i = 0; i < total_.size(); ++i) {
-    const Sums& s = total_[i];
+  picture.rgb.resize(3 * pixels);
+  picture.alpha.resize(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const PixelSums& s = sums_.done[i];
     const double d = divisor(s.weight, s.count);
     for (std::size_t c = 0; c < 3; ++c)
       picture.rgb[3 * i + c] = static_cast<float>(s.rgb[c].value() / d);
     picture.alpha[i] = static_cast<float>(std::clamp(static_cast<double>(s.covered) / d, 0.0, 1.0));
   }
   picture.samples = samples_;
-  picture.dropped_samples = dropped_.load();
+  picture.dropped_samples = dropped_;
   append_layers(picture);
   return picture;
 }

@@ -1,5 +1,5 @@
 // The extra layers of a picture. Values of surfaces are means over the samples that hit one; where
-// none did they are 0.
+// none did they are 0. `variance` is that of the pixel's mean; 0 where it is not known.
 #include <algorithm>
 #include <cmath>
 
@@ -18,67 +18,62 @@ void append(Picture& picture, const char* name, std::size_t pixels, const F& val
 }  // namespace
 
 void Film::append_layers(Picture& picture) const {
-  const std::size_t n = total_.size();
+  const std::size_t n = sums_.done.size();
   const auto mean = [&](const FixedSum& sum, std::size_t i) {
-    return sum.value() / std::max(1, total_[i].hits);
+    return sum.value() / std::max(1, sums_.done[i].hits);
   };
   for (const ir::Aov aov : settings_.aovs) {
     switch (aov) {
       case ir::Aov::albedo:
         append(picture, "albedo.R", n,
-               [&](std::size_t i) { return mean(total_extra_[i].albedo[0], i); });
+               [&](std::size_t i) { return mean(extra_.done[i].albedo[0], i); });
         append(picture, "albedo.G", n,
-               [&](std::size_t i) { return mean(total_extra_[i].albedo[1], i); });
+               [&](std::size_t i) { return mean(extra_.done[i].albedo[1], i); });
         append(picture, "albedo.B", n,
-               [&](std::size_t i) { return mean(total_extra_[i].albedo[2], i); });
+               [&](std::size_t i) { return mean(extra_.done[i].albedo[2], i); });
         break;
       case ir::Aov::normal:
-        append(picture, "N.X", n,
-               [&](std::size_t i) { return mean(total_extra_[i].normal[0], i); });
-        append(picture, "N.Y", n,
-               [&](std::size_t i) { return mean(total_extra_[i].normal[1], i); });
-        append(picture, "N.Z", n,
-               [&](std::size_t i) { return mean(total_extra_[i].normal[2], i); });
+        append(picture, "N.X", n, [&](std::size_t i) { return mean(extra_.done[i].normal[0], i); });
+        append(picture, "N.Y", n, [&](std::size_t i) { return mean(extra_.done[i].normal[1], i); });
+        append(picture, "N.Z", n, [&](std::size_t i) { return mean(extra_.done[i].normal[2], i); });
         break;
       case ir::Aov::position:
         append(picture, "P.X", n,
-               [&](std::size_t i) { return mean(total_extra_[i].position[0], i); });
+               [&](std::size_t i) { return mean(extra_.done[i].position[0], i); });
         append(picture, "P.Y", n,
-               [&](std::size_t i) { return mean(total_extra_[i].position[1], i); });
+               [&](std::size_t i) { return mean(extra_.done[i].position[1], i); });
         append(picture, "P.Z", n,
-               [&](std::size_t i) { return mean(total_extra_[i].position[2], i); });
+               [&](std::size_t i) { return mean(extra_.done[i].position[2], i); });
         break;
       case ir::Aov::depth:
-        append(picture, "Z", n, [&](std::size_t i) { return mean(total_extra_[i].depth, i); });
+        append(picture, "Z", n, [&](std::size_t i) { return mean(extra_.done[i].depth, i); });
         break;
       case ir::Aov::uv:
-        append(picture, "UV.X", n, [&](std::size_t i) { return mean(total_extra_[i].uv[0], i); });
-        append(picture, "UV.Y", n, [&](std::size_t i) { return mean(total_extra_[i].uv[1], i); });
+        append(picture, "UV.X", n, [&](std::size_t i) { return mean(extra_.done[i].uv[0], i); });
+        append(picture, "UV.Y", n, [&](std::size_t i) { return mean(extra_.done[i].uv[1], i); });
         break;
       case ir::Aov::ids:
         // 0 is nothing, so numbers start at 1.
         append(picture, "id.item", n, [&](std::size_t i) {
-          return total_extra_[i].identified ? total_extra_[i].item + 1.0 : 0.0;
+          return extra_.done[i].identified ? extra_.done[i].item + 1.0 : 0.0;
         });
         append(picture, "id.material", n, [&](std::size_t i) {
-          return total_extra_[i].identified ? total_extra_[i].material + 1.0 : 0.0;
+          return extra_.done[i].identified ? extra_.done[i].material + 1.0 : 0.0;
         });
         break;
       case ir::Aov::variance: {
         const char* names[3] = {"variance.R", "variance.G", "variance.B"};
         for (std::size_t c = 0; c < 3; ++c) {
           append(picture, names[c], n, [&](std::size_t i) {
-            const double count = std::max(2, total_[i].count);
-            const double average = total_[i].rgb[c].value() / count;
-            return std::fmax(0, total_squares_[i].rgb[c].value() / count - average * average) /
-                   (count - 1);
+            const auto means = replicate_means(i);
+            return means ? variance_of_mean(*means, c) : 0.0;
           });
         }
         break;
       }
       case ir::Aov::samples:
         append(picture, "samples.Y", n,
-               [&](std::size_t i) { return static_cast<double>(total_[i].count); });
+               [&](std::size_t i) { return static_cast<double>(sums_.done[i].count); });
         break;
       case ir::Aov::trust:
         break;  // how far a pixel can be trusted needs two estimates; this renderer makes one

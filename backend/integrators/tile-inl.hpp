@@ -32,9 +32,11 @@ bool render_tile(const TileJob& job, Film& film, const Tile& tile, const SampleR
     for (std::size_t x = tile.x0; x < tile.x1; ++x) {
       const std::int64_t px = film.region().x0 + static_cast<std::int64_t>(x);
       const auto pixel = static_cast<std::uint64_t>(py * settings.size.width + px);
+      Film::Pixel sums = film.open(x, y);
       for (std::int64_t number = samples.first; number < samples.end; ++number) {
         if (stop.stop_requested()) return false;
-        const Sampler sampler(settings.sampler, seed, pixel, static_cast<std::uint64_t>(number));
+        const ReplicateSample one = replicate_sample(seed, static_cast<std::uint64_t>(number));
+        const Sampler sampler(settings.sampler, one.seed, pixel, one.number);
         FilmSample out;
         // film .course: the lower left corner.
         double film_x = static_cast<double>(px);
@@ -55,8 +57,9 @@ bool render_tile(const TileJob& job, Film& film, const Tile& tile, const SampleR
         out.radiance = traced.radiance;
         out.covered = traced.covered;
         if (job.trace.wants_first_hit) out.first = traced.first;
-        film.add(x, y, out);
+        sums.add(number, out);
       }
+      sums.close();
     }
   }
   return true;

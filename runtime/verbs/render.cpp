@@ -13,6 +13,7 @@
 #include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "runtime/cache.hpp"
+#include "runtime/checkpoint.hpp"
 #include "runtime/cli.hpp"
 #include "runtime/output.hpp"
 #include "runtime/picture_metadata.hpp"
@@ -114,17 +115,52 @@ class RenderRun {
                         .precision = options_.precision,
                         .target = options_.target.value_or(backend::best_target())});
     clock_.finish("build");
-    signals_.allow_graceful_stop();
-    ProgressPrinter progress(progress_, environment_);
     ir::EffectSet effects = backend::find_effects(*built, settings).simulated();
     if (options_.effects == SimulatedEffects::all) effects = ir::EffectSet::all();
     stats_.kernel = backend::kernel_for(settings.method, effects).name;
-    const backend::Picture picture =
-        backend::render(*built, settings, effects, pool_, signals_.stop(),
-                        [&](const backend::Progress& done) { progress.update(done); });
+    backend::RenderSession session(*built, settings, effects, pool_);
+    backend::StopState state;
+    const bool keeps = !checkpoint_path_of(options_).empty();
+    CheckpointKeeper keeper(
+        options_, keeps ? identity_of(scene, settings, effects, options_) : RenderIdentity{});
+    if (!take_up(session, settings, keeper, state)) return ExitCode::file_error;
+    signals_.allow_graceful_stop();
+    ProgressPrinter progress(progress_, environment_);
+    const backend::RenderHooks hooks{[&](const backend::Progress& done) { progress.update(done); },
+                                     [&] { keeper.save_now_and_then(session, state); }};
+    const backend::StopReason reason =
+        backend::render_to_end(session, settings, signals_.stop(), hooks, state);
     progress.finish();
+    const bool complete = reason != backend::StopReason::request;
+    if (!complete) keeper.save(session, state);
+    backend::Picture picture = session.picture();
+    picture.complete = complete;
+    stats_.error = session.error();
     clock_.finish("render");
-    return write(scene, settings, picture, format);
+    const ExitCode code = write(scene, settings, picture, format);
+    if (code == ExitCode::ok && complete) keeper.finish(session, state);
+    return told_of(keeper) ? ExitCode::file_error : code;
+  }
+
+  // Goes on from the checkpoint when that is asked for; false: it cannot (said).
+  bool take_up(backend::RenderSession& session, const ir::RenderSettings& settings,
+               CheckpointKeeper& keeper, backend::StopState& state) {
+    if (!options_.resume) return true;
+    std::optional<std::string> problem = keeper.restore(session, state);
+    const std::int64_t cap = backend::sample_cap_of(settings);
+    if (!problem && session.samples() > cap)
+      problem = fmt::format("has {} samples a pixel; {} are asked for", session.samples(), cap);
+    if (!problem) return true;
+    environment_.err << fmt::format("scenec: the checkpoint `{}` cannot be taken up: {}\n",
+                                    printable(keeper.path()), *problem);
+    return false;
+  }
+
+  bool told_of(const CheckpointKeeper& keeper) {
+    if (!keeper.problem()) return false;
+    environment_.err << fmt::format("scenec: the checkpoint `{}` could not be written: {}\n",
+                                    printable(keeper.path()), *keeper.problem());
+    return true;
   }
 
   ExitCode write(const ir::Scene& scene, const ir::RenderSettings& settings,
@@ -136,13 +172,15 @@ class RenderRun {
     Options told = options_;
     told.settings = session_.settings();  // those of the file of parameters too
     const std::string bytes = backend::encode(
-        picture, settings, format, encode_options(told, scene, settings, picture, pool_.size()));
+        picture, settings, format,
+        encode_options(told, scene, settings, picture, pool_.size(), stats_.error));
     if (const auto problem = write_file(output_, bytes)) return *problem;
     clock_.finish("write");
     if (progress_ != ProgressStyle::none && progress_ != ProgressStyle::json) {
       environment_.err << fmt::format(
-          "{}: {}x{}, {} sample{} a pixel, {}{}\n", printable(output_), picture.width,
+          "{}: {}x{}, {} sample{} a pixel, {}{}{}\n", printable(output_), picture.width,
           picture.height, picture.samples, picture.samples == 1 ? "" : "s",
+          stats_.error.known ? "error " + error_text(stats_.error.relative) + ", " : "",
           duration_text(stats_.seconds_of("render")), picture.complete ? "" : ", stopped early");
     }
     if (const auto problem = write_stats(picture)) return *problem;

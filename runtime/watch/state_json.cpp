@@ -50,7 +50,8 @@ Json curve_json(const WatchedScene& scene) {
   Json list = Json::array();
   for (const CurvePoint& point : scene.curve()) {
     list.push_back(
-        {point.seconds, point.samples, point.error.error, point.error.low, point.error.high});
+        {point.seconds, point.samples, point.error.relative.value,
+         point.error.relative.low, point.error.relative.high});
   }
   return list;
 }

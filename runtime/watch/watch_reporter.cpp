@@ -128,7 +128,7 @@ void WatchReporter::print_event(const WatchedScene& scene, std::string_view even
     json["samples"] = scene.samples();
     const auto& done = event == "finished" ? scene.times().finished : scene.times().first_picture;
     if (done) json["ms_after_change"] = *done;
-    if (!scene.curve().empty()) json["error"] = scene.curve().back().error.error;
+    if (!scene.curve().empty()) json["error"] = scene.curve().back().error.relative.value;
   }
   const std::lock_guard lock(mutex_);
   environment_.out << json.dump(-1, ' ', true, Json::error_handler_t::replace) << std::endl;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
+
 #include "runtime/help.hpp"
 
 namespace scenec::runtime {
@@ -120,8 +122,12 @@ TEST(Cli, HelpNamesEveryOptionOfEveryVerb) {
     const std::string help = help_of(verb.verb);
     for (const OptionRow& row : all_options()) {
       const std::string name(row.names.substr(0, row.names.find(',')));
-      EXPECT_EQ(help.find("  " + name) != std::string::npos, row.verbs.contains(verb.verb))
-          << verb.name << " " << name;
+      // A name may be the beginning of another one.
+      const std::size_t place = help.find("  " + name);
+      const bool is_named =
+          place != std::string::npos && (help[place + 2 + name.size()] != '-' &&
+                                         std::isalpha(help[place + 2 + name.size()]) == 0);
+      EXPECT_EQ(is_named, row.verbs.contains(verb.verb)) << verb.name << " " << name;
     }
   }
   EXPECT_THAT(std::get<Answer>(parse_command_line({"--help"})).text, HasSubstr("Exit codes"));

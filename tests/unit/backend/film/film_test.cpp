@@ -61,22 +61,32 @@ FilmSample sample_of(double radiance, int weight = 1) {
   return s;
 }
 
+void give(Film& film, std::size_t x, std::size_t y, std::int64_t first,
+          std::initializer_list<FilmSample> samples) {
+  Film::Pixel pixel = film.open(x, y);
+  for (const FilmSample& sample : samples) pixel.add(first++, sample);
+  pixel.close();
+}
+
 TEST(film, sixty_four_samples_are_twice_thirty_two) {  // D02
   ir::RenderSettings settings;
   settings.size = {3, 2};
-  ThreadPool pool(2);
-  Film whole(settings, Film::Squares::no);
-  Film halves(settings, Film::Squares::no);
-  for (std::uint64_t s = 0; s < 64; ++s) {
+  Film whole(settings);
+  Film halves(settings);
+  const auto add = [](Film& film, std::int64_t first, std::int64_t end) {
     for (std::size_t x = 0; x < 3; ++x) {
-      const double radiance = std::exp(20 * random_unit(1, x, s, 0) - 10);
-      whole.add(x, 1, sample_of(radiance));
-      halves.add(x, 1, sample_of(radiance));
+      Film::Pixel pixel = film.open(x, 1);
+      for (std::int64_t s = first; s < end; ++s)
+        pixel.add(
+            s, sample_of(std::exp(20 * random_unit(1, x, static_cast<std::uint64_t>(s), 0) - 10)));
+      pixel.close();
     }
-    if (s == 31) halves.finish_round(32, pool);
-  }
-  whole.finish_round(64, pool);
-  halves.finish_round(32, pool);
+    film.finish_round(end - first);
+  };
+  add(whole, 0, 64);
+  add(halves, 0, 31);
+  add(halves, 31, 64);
+  EXPECT_EQ(whole.replicate_means(4), halves.replicate_means(4));
   EXPECT_EQ(whole.picture().rgb, halves.picture().rgb);
   EXPECT_EQ(whole.picture().samples, halves.picture().samples);
 }
@@ -85,12 +95,13 @@ TEST(film, a_dropped_round_leaves_no_trace) {
   ir::RenderSettings settings;
   settings.size = {1, 1};
   settings.aovs = {ir::Aov::depth};
-  ThreadPool pool(1);
-  Film film(settings, Film::Squares::yes);
-  film.add(0, 0, sample_of(2));
-  film.finish_round(1, pool);
-  film.add(0, 0, sample_of(100));
+  Film film(settings);
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  give(film, 0, 0, 0, {sample_of(2)});
+  film.finish_round(1);
+  give(film, 0, 0, 1, {sample_of(100), sample_of(infinite)});
   film.drop_round();
+  EXPECT_EQ(film.picture().dropped_samples, 0U);
   EXPECT_EQ(film.picture().rgb[0], 2.0F);
   EXPECT_EQ(film.picture().samples, 1);
 }
@@ -98,12 +109,11 @@ TEST(film, a_dropped_round_leaves_no_trace) {
 TEST(film, samples_that_are_not_finite_are_counted_and_left_out) {  // C08
   ir::RenderSettings settings;
   settings.size = {1, 1};
-  ThreadPool pool(1);
-  Film film(settings, Film::Squares::no);
-  film.add(0, 0, sample_of(3));
-  film.add(0, 0, sample_of(std::numeric_limits<double>::quiet_NaN()));
-  film.add(0, 0, sample_of(std::numeric_limits<double>::infinity()));
-  film.finish_round(3, pool);
+  Film film(settings);
+  give(film, 0, 0, 0,
+       {sample_of(3), sample_of(std::numeric_limits<double>::quiet_NaN()),
+        sample_of(std::numeric_limits<double>::infinity())});
+  film.finish_round(3);
   EXPECT_EQ(film.picture().rgb[0], 3.0F);
   EXPECT_EQ(film.picture().dropped_samples, 2U);
 }
@@ -146,13 +156,14 @@ TEST_P(Filters, keep_a_constant_exact) {  // C07
   ir::RenderSettings settings;
   settings.size = {1, 1};
   const FilterSampler sampler({GetParam(), ir::usual_radius(GetParam())});
-  ThreadPool pool(1);
-  Film film(settings, Film::Squares::no);
+  Film film(settings);
+  Film::Pixel pixel = film.open(0, 0);
   for (std::uint64_t s = 0; s < 64; ++s) {
     const FilterSample offset = sampler.sample({random_unit(2, 0, s, 0), random_unit(2, 0, s, 1)});
-    film.add(0, 0, sample_of(1e4, offset.weight));
+    pixel.add(static_cast<std::int64_t>(s), sample_of(1e4, offset.weight));
   }
-  film.finish_round(64, pool);
+  pixel.close();
+  film.finish_round(64);
   EXPECT_EQ(film.picture().rgb[0], 1e4F);
 }
 
