@@ -370,7 +370,7 @@ class Study {
 
   void measure_precision() {
     const backend::RenderScenePtr full =
-        backend::build(plan_.prepared, pool_, {nullptr, backend::Precision::full});
+        backend::build(plan_.prepared, pool_, {.precision = backend::Precision::full});
     Variant variant = base_;
     variant.name = "--precision double";
     variant.what = "vertices of meshes in double";
