@@ -37,7 +37,7 @@ bool StopRule::holds(std::int64_t samples, double seconds, const ErrorEstimate& 
   if (samples >= cap_) return true;
   if (stop_.time && seconds >= stop_.time->value) return true;
   if (!needs_error(samples)) return false;
-  const bool now = error.known && error.error <= *stop_.error;
+  const bool now = error.known && error.relative.value <= *stop_.error;
   const bool before = std::exchange(error_reached_, now);
   return now && before;
 }
