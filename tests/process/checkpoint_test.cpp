@@ -142,6 +142,9 @@ void expect_survival(int kills, const char* samples, int longest_ms) {
     resumed += exists ? 1 : 0;
     Child child(words, stage.options());
     if (kill < kills) {
+      // On a busy machine nothing may have been saved yet: the first is let come to its first save.
+      for (int wait = 0; wait < 500 && !exists && stage.file("c").empty(); ++wait)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
       std::this_thread::sleep_for(
           std::chrono::milliseconds(30 + random() % static_cast<unsigned>(longest_ms)));
       child.send(SIGKILL);
