@@ -11,6 +11,7 @@
 #include "ir/effects.hpp"
 #include "tests/support/built_scene.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace scenec {
 namespace {
@@ -108,6 +109,15 @@ TEST(Showcase, ShowsWhatItSays) {
       without.remove(effect);
       EXPECT_NE(picture_with(*built, without, pool).rgb, whole.rgb) << ir::name_of(effect);
     }
+  }
+}
+
+TEST(Showcase, EveryPictureOfThePageHasItsScene) {
+  const std::string page = test::text_of_file(test::source_directory() / "docs/gallery.md");
+  for (const auto& scene : test::scenes_beneath({"stdlib-scenes/showcase"})) {
+    EXPECT_NE(page.find(scene.filename().string()), std::string::npos) << scene;
+    EXPECT_NE(page.find("images/gallery/" + scene.stem().string() + ".png"), std::string::npos)
+        << scene;
   }
 }
 
