@@ -96,8 +96,7 @@ std::vector<Emitter> mesh(const Transform& t, const TriangleMesh& mesh) {
 
 class LightAdder {
  public:
-  LightAdder(const PreparedScene& prepared, RenderScene& out)
-      : prepared_(prepared), scene_(*prepared.scene), out_(out) {
+  LightAdder(const PreparedScene& prepared, RenderScene& out) : scene_(*prepared.scene), out_(out) {
     for (const ir::Proto& proto : scene_.protos) {
       first_of_proto_.push_back(next_item_);
       next_item_ += static_cast<std::uint32_t>(proto.items.size());
@@ -242,7 +241,6 @@ class LightAdder {
     }
   }
 
-  const PreparedScene& prepared_;
   const ir::Scene& scene_;
   RenderScene& out_;
   std::uint32_t next_item_ = static_cast<std::uint32_t>(scene_.items.size());

@@ -1,7 +1,7 @@
-"""How long an author waits: from the close of the file to the first picture on the wire (and, with
-`--page`, on the canvas of a headless Chromium), on a scene of 100,000 triangles at 960x540.
+"""How long an author waits: from the close of the file to the first picture on a page's socket, on a
+scene of 100,000 triangles at 960x540. What the browser takes to paint it is not included.
 
-    SCENEC=build/release/scenec python3 tests/watch/latency.py [--rounds N] [--page]
+    SCENEC=build/release/scenec python3 tests/watch/latency.py [--rounds N]
 
 Prints its own table; the goals are those of docs/performance.md.
 """
