@@ -6,27 +6,17 @@
 #include <utility>
 
 #include "backend/render_session.hpp"
+#include "backend/stop_rule.hpp"
 
 namespace scenec::backend {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::int64_t most_samples = 1'048'576;
-// `stop.error` needs this many samples, and two looks that agree, before it is believed.
-constexpr std::int64_t samples_before_error = 64;
 // A round should end in time for a checkpoint, a look or a stop by time.
 constexpr double longest_round = 1.5;
 // An estimate for the progress line may take this part of the time.
 constexpr double share_of_estimates = 0.01;
-
-// The next number of samples at which `stop.error` is looked at: they grow by a quarter, so that
-// stopping at one costs little.
-std::int64_t next_look(std::int64_t done) {
-  std::int64_t look = 1;
-  while (look <= done) look += std::max<std::int64_t>(1, look / 4);
-  return look;
-}
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -129,10 +119,8 @@ class Renderer {
 
   bool error_is_reached() {
     if (!settings_.stop.error || session_.samples() < samples_before_error) return false;
-    const ErrorEstimate& estimate = look();
-    const bool now = estimate.known && estimate.relative.value <= *settings_.stop.error;
-    const bool before = std::exchange(state_.error_reached, now);
-    return now && before;
+    if (!settings_.stop.error || session_.samples() < samples_before_error) return false;
+    return error_holds(settings_.stop, session_.samples(), look(), state_.error_reached);
   }
 
   // Of the work the rule that is nearest calls for.
@@ -160,14 +148,6 @@ class Renderer {
 };
 
 }  // namespace
-
-std::int64_t sample_cap_of(const ir::RenderSettings& s) {
-  if (s.samples) return *s.samples;
-  if (s.stop.samples) return *s.stop.samples;
-  if (s.stop.error || s.stop.time) return most_samples;
-  if (s.film == ir::FilmKind::course) return 1;
-  return s.method == ir::Method::path ? 64 : 16;
-}
 
 StopReason render_to_end(RenderSession& session, const ir::RenderSettings& settings,
                          const std::stop_token& stop, const RenderHooks& hooks, StopState& state) {

@@ -78,7 +78,5 @@ struct RenderHooks {
 // rounds take a second or two.
 StopReason render_to_end(RenderSession& session, const ir::RenderSettings& settings,
                          const std::stop_token& stop, const RenderHooks& hooks, StopState& state);
-// The samples a pixel at which a render with these settings ends at the latest.
-[[nodiscard]] std::int64_t sample_cap_of(const ir::RenderSettings& settings);
 
 }  // namespace scenec::backend

@@ -6,12 +6,10 @@
 namespace scenec::backend {
 
 namespace {
-
 constexpr std::int64_t most_samples = 1'048'576;
-// `stop.error` needs this many samples, and two rounds that agree, before it is believed.
-constexpr std::int64_t samples_before_error = 64;
+}  // namespace
 
-std::int64_t sample_cap(const ir::RenderSettings& s) {
+std::int64_t sample_cap_of(const ir::RenderSettings& s) {
   if (s.samples) return *s.samples;
   if (s.stop.samples) return *s.stop.samples;
   if (s.stop.error || s.stop.time) return most_samples;
@@ -19,13 +17,25 @@ std::int64_t sample_cap(const ir::RenderSettings& s) {
   return s.method == ir::Method::path ? 64 : 16;
 }
 
-}  // namespace
+std::int64_t next_look(std::int64_t done) {
+  std::int64_t look = 1;
+  while (look <= done) look += std::max<std::int64_t>(1, look / 4);
+  return look;
+}
+
+bool error_holds(const ir::Stop& stop, std::int64_t samples, const ErrorEstimate& error,
+                 bool& reached) {
+  if (!stop.error || samples < samples_before_error) return false;
+  const bool now = error.known && error.relative.value <= *stop.error;
+  const bool before = std::exchange(reached, now);
+  return now && before;
+}
 
 StopRule::StopRule(const ir::RenderSettings& settings)
-    : stop_(settings.stop), cap_(sample_cap(settings)) {}
+    : stop_(settings.stop), cap_(sample_cap_of(settings)) {}
 
 std::int64_t StopRule::next_round(std::int64_t done) const {
-  return std::min(cap_ - done, std::max<std::int64_t>(1, done / 4));
+  return std::min(cap_, next_look(done)) - done;
 }
 
 bool StopRule::needs_error(std::int64_t samples) const {
@@ -36,10 +46,7 @@ bool StopRule::holds(std::int64_t samples, double seconds, const ErrorEstimate& 
   if (samples == 0) return false;
   if (samples >= cap_) return true;
   if (stop_.time && seconds >= stop_.time->value) return true;
-  if (!needs_error(samples)) return false;
-  const bool now = error.known && error.relative.value <= *stop_.error;
-  const bool before = std::exchange(error_reached_, now);
-  return now && before;
+  return error_holds(stop_, samples, error, error_reached_);
 }
 
 }  // namespace scenec::backend

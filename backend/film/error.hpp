@@ -2,8 +2,7 @@
 //
 // Domain:     every pixel has a sample in each replicate; finite sums.
 // Method:     The variance v of a pixel's mean is that between its replicates. relMSE is the mean
-// of
-//             v / (R^2 + e) over pixels and channels, with e = 0.01 * (mean luminance)^2. R is not
+//             of v / (R^2 + e) over pixels and channels, with e = 0.01 * (mean luminance)^2. R is not
 //             known, and a pixel's own mean is a bad guess: the bright sample that makes v large
 //             makes the mean large too. The mean of the pixels round it that are like it takes its
 //             place; likeness is judged by the two middle replicates, which do not see one bright

@@ -3,12 +3,13 @@
 //
 // Domain:     linear RGB, clamped to [0, 1] (what a display can show); equal sizes.
 // Method:     Andersson et al. 2020, "FLIP: A Difference Evaluator for Alternating Images", with
-// its
-//             constants: contrast sensitivity filters in YCxCz, HyAB in Hunt-adjusted L*a*b*,
+//             its constants: contrast sensitivity filters in YCxCz, HyAB in Hunt-adjusted L*a*b*,
 //             differences of edges and points raise the difference of colours.
-// Error:      single-precision constants of the paper; filters cut off at three standard
-// deviations. Degenerate: pixels beyond the edge repeat the edge; a picture of one pixel has no
-// edges. NaN is 0. Proof:      tests/unit/backend/image/flip_test.cpp.
+// Error:      single-precision constants of the paper; filters are cut off at three standard
+//             deviations.
+// Degenerate: pixels beyond the edge repeat the edge; a picture of one pixel has no edges; NaN
+//             is 0.
+// Proof:      tests/unit/backend/image/flip_test.cpp.
 #pragma once
 
 #include <vector>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "backend/backend.hpp"
+#include "backend/stop_rule.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "runtime/cache.hpp"
