@@ -47,10 +47,18 @@ Vec3 rescaled(const Vec3& a) {
   return {std::ldexp(a[0], -exponent), std::ldexp(a[1], -exponent), std::ldexp(a[2], -exponent)};
 }
 
+bool is_finite(const Vec3& a) {
+  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+
+// A quarter of the corners' coordinates has differences that are finite whatever they are.
 bool has_area(const Point3& a, const Point3& b, const Point3& c) {
-  const Vec3 ab = difference(b, a);
-  const Vec3 ac = difference(c, a);
-  if (!is_zero(cross(ab, ac))) return true;
+  const Vec3 direct = cross(difference(b, a), difference(c, a));
+  if (is_finite(direct) && !is_zero(direct)) return true;
+  const auto quarter = [](const Point3& p) { return Point3{p.x / 4, p.y / 4, p.z / 4}; };
+  const bool large = !is_finite(direct);
+  const Vec3 ab = large ? difference(quarter(b), quarter(a)) : difference(b, a);
+  const Vec3 ac = large ? difference(quarter(c), quarter(a)) : difference(c, a);
   return !is_zero(cross(rescaled(ab), rescaled(ac)));
 }
 

@@ -172,9 +172,9 @@ class RenderRun {
     }
     Options told = options_;
     told.settings = session_.settings();  // those of the file of parameters too
-    const std::string bytes = backend::encode(
-        picture, settings, format,
-        encode_options(told, scene, settings, picture, pool_.size(), stats_.error));
+    const std::string bytes =
+        backend::encode(picture, settings, format,
+                        encode_options(told, scene, settings, picture, pool_.size(), stats_.error));
     if (const auto problem = write_file(output_, bytes)) return *problem;
     clock_.finish("write");
     if (progress_ != ProgressStyle::none && progress_ != ProgressStyle::json) {
@@ -182,10 +182,15 @@ class RenderRun {
           "{}: {}x{}, {} sample{} a pixel, {}{}{}\n", printable(output_), picture.width,
           picture.height, picture.samples, picture.samples == 1 ? "" : "s",
           stats_.error.known ? "error " + error_text(stats_.error.relative) + ", " : "",
-          duration_text(stats_.seconds_of("render")), picture.complete ? "" : ", stopped early");
+          duration_text(stats_.seconds_of("render")), picture.complete ? "" : early_end());
     }
     if (const auto problem = write_stats(picture)) return *problem;
     return exit_code();
+  }
+
+  [[nodiscard]] std::string_view early_end() const {
+    return checkpoint_path_of(options_).empty() ? ", stopped early"
+                                                : ", stopped early; `--resume` goes on from here";
   }
 
   // What was found before has been printed; a failure to write is all that is left to say.

@@ -35,7 +35,7 @@ TEST(Signals, InterruptWritesThePictureSoFar) {
   EXPECT_LT(result.seconds, SCENEC_IS_SANITIZED ? 20 : 2);
   EXPECT_TRUE(scenec::test::bytes_of(sandbox.path() / "out.png").starts_with("\x89PNG"))
       << result.err;
-  EXPECT_NE(result.err.find("stopped early"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("stopped early; `--resume` goes on"), std::string::npos) << result.err;
 }
 
 TEST(Signals, TerminateDoesTheSame) {

@@ -176,6 +176,16 @@ TEST(Obj, SurvivesRandomDamage) {
 }
 
 // Found by fuzz_mesh: the reader of normals went beyond their end.
+TEST(Obj, CornersWhoseSquaresOverflowAreJudgedToo) {
+  // The products of differences are infinite, their difference no number: that is no area.
+  const MeshData repeated =
+      mesh_of("v 0 0 1e308\nv 1e308 1 0\nv 0 1 -1e308\nf 1 2 2\nf 1 2 3\nf 1 3 2 2\n");
+  EXPECT_EQ(repeated.dropped_face_count, 1U);
+  ASSERT_EQ(repeated.triangles.size(), 2U);
+  for (const TriangleIndices& one : repeated.triangles)
+    EXPECT_TRUE(one[0] != one[1] && one[1] != one[2] && one[2] != one[0]);
+}
+
 TEST(Obj, WhatNoFaceNamesIsNotInTheMesh) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
   const auto plain = read_obj(vertices + "f 1 2 3\n");
