@@ -126,8 +126,9 @@ void WatchReporter::print_event(const WatchedScene& scene, std::string_view even
     json["generation"] = info.generation;
     json["step"] = info.step;
     json["samples"] = scene.samples();
-    const auto& done = event == "finished" ? scene.times().finished : scene.times().first_picture;
-    if (done) json["ms_after_change"] = *done;
+    const auto& finished = scene.times().finished;
+    json["ms_after_change"] =
+        event == "finished" && finished ? *finished : scene.since_change(WatchClock::now());
     if (!scene.curve().empty()) json["error"] = scene.curve().back().error.relative.value;
   }
   const std::lock_guard lock(mutex_);

@@ -102,9 +102,10 @@ class WatchedScene {
   [[nodiscard]] FrameInfo frame_info() const;
   [[nodiscard]] const std::string& change() const { return change_; }
   [[nodiscard]] Shown view() const;
+  // Milliseconds since the change that is shown.
+  [[nodiscard]] double since_change(WatchClock::time_point now) const;
 
  private:
-  [[nodiscard]] double since_change(WatchClock::time_point now) const;
   bool refine_coarse(const std::stop_token& stop);
   bool refine_full(const std::stop_token& stop);
 
