@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,42 +23,22 @@
 #include "runtime/watch/preview_api.hpp"
 #include "runtime/watch/preview_server.hpp"
 #include "runtime/watch/render_loop.hpp"
+#include "runtime/watch/scene_folder.hpp"
 #include "runtime/watch/watch_reporter.hpp"
 
 namespace scenec::runtime {
 
 namespace {
 
-namespace fs = std::filesystem;
+// Folders are watched under a number that no scene has.
+constexpr auto folders_owner = std::numeric_limits<std::size_t>::max();
 
-// A folder stands for the scenes in it.
-std::vector<std::string> scenes_of(const std::vector<std::string>& operands) {
-  std::vector<std::string> scenes;
+void watch_folders(FileWatcher& watcher, const std::vector<std::string>& operands) {
+  std::vector<FileRecord> listings;
   for (const std::string& operand : operands) {
-    std::error_code error;
-    if (!fs::is_directory(operand, error)) {
-      scenes.push_back(operand);
-      continue;
-    }
-    std::vector<std::string> found;
-    for (fs::directory_iterator at(operand, error), end; !error && at != end; at.increment(error)) {
-      if (extension_of(at->path().string()) == ".sdl" && at->is_regular_file(error))
-        found.push_back(at->path().string());
-    }
-    std::sort(found.begin(), found.end());
-    scenes.insert(scenes.end(), found.begin(), found.end());
+    if (is_folder(operand) || is_listing(operand)) listings.push_back(listing_of(operand));
   }
-  return scenes;
-}
-
-std::vector<Options> options_by_scene(const Options& options,
-                                      const std::vector<std::string>& scenes) {
-  std::vector<Options> result;
-  for (const std::string& scene : scenes) {
-    result.push_back(options);
-    result.back().operands = {scene};
-  }
-  return result;
+  if (!listings.empty()) watcher.watch(folders_owner, std::move(listings));
 }
 
 ExitCode refuse(const Environment& environment, const std::string& message, ExitCode code) {
@@ -90,9 +70,8 @@ ExitCode verbs::watch(const Options& options, const Environment& environment) {
   SignalWatch signals(environment.handle_signals ? SignalWatch::Mode::watch
                                                  : SignalWatch::Mode::ignore);
   const std::vector<std::string> names = scenes_of(options.operands);
-  if (names.empty())
-    return refuse(environment, "there is no `.sdl` file in the folder", ExitCode::usage);
-  if (names.size() > 1 && !options.output.empty())
+  const bool one_scene = names == options.operands && names.size() == 1;
+  if (!one_scene && !options.output.empty())
     return refuse(environment, "`-o` takes the picture of one scene", ExitCode::usage);
   if (!options.output.empty()) {
     DiagnosticSink sink;
@@ -104,10 +83,10 @@ ExitCode verbs::watch(const Options& options, const Environment& environment) {
 
   const Gate gate{.port = listening.value().port,
                   .token = kept_token(environment, listening.value().port)};
-  Board board(names.size());
+  Board board;
   JobQueue jobs;
   WatchReporter reporter(options, environment, jobs);
-  RenderLoop loop(options_by_scene(options, names), environment, board, reporter);
+  RenderLoop loop(options, names, environment, board, reporter);
   std::optional<PreviewServer> server;
   PreviewApi api(gate, loop, jobs, [&](PreviewServer::RequestId id, HttpResponse response) {
     server->reply(id, std::move(response));
@@ -117,7 +96,15 @@ ExitCode verbs::watch(const Options& options, const Environment& environment) {
                    api.handle(id, std::move(request));
                  });
   FileWatcher watcher(
-      {.poll = options.poll}, [&](const FilesSettled& settled) { loop.files_settled(settled); },
+      {.poll = options.poll},
+      [&](FilesSettled settled) {
+        settled.touched.erase(folders_owner);
+        if (settled.changed.erase(folders_owner) > 0) {
+          loop.set_scenes(scenes_of(options.operands));
+          watch_folders(watcher, options.operands);
+        }
+        loop.files_settled(settled);
+      },
       [&](const std::string& text) {
         loop.add_notice(text);
         reporter.noticed(text);
@@ -127,6 +114,7 @@ ExitCode verbs::watch(const Options& options, const Environment& environment) {
   if (options.open_page && !open_in_browser(address))
     loop.add_notice("no browser could be opened: `xdg-open` is missing");
   signals.allow_graceful_stop();
+  watch_folders(watcher, options.operands);
   loop.start(watcher);
   jobs.run(signals.stop());
   loop.stop();

@@ -1,5 +1,6 @@
-// What pages are to show, newest first and only: the state of every scene (JSON) and its picture.
-// The render thread puts, the server takes; nobody waits for the other.
+// What pages are to show, newest first and only: the state of every scene (JSON) and its picture,
+// and the list of the scenes where there is one. The render thread puts, the server takes; nobody
+// waits for the other. Scenes keep their numbers; more may come.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,15 +19,35 @@ class Board {
  public:
   using Bytes = std::shared_ptr<const std::string>;
   struct Slot {
-    Bytes state;
+    Bytes state{};
     std::uint64_t state_version = 0;  // 0: nothing yet
-    Bytes frame;
+    Bytes frame{};
     std::uint64_t frame_version = 0;
     int viewers = 0;
   };
 
-  explicit Board(std::size_t scenes) : slots_(scenes) {}
-  [[nodiscard]] std::size_t size() const { return slots_.size(); }
+  struct List {
+    Bytes bytes;  // null: there is but one scene
+    std::uint64_t version = 0;
+  };
+
+  explicit Board(std::size_t scenes = 0) : slots_(scenes) {}
+  [[nodiscard]] std::size_t size() const {
+    const std::lock_guard lock(mutex_);
+    return slots_.size();
+  }
+  void add_scene() {
+    const std::lock_guard lock(mutex_);
+    slots_.emplace_back();
+  }
+  // From here on pages that ask for all scenes get the list and every state, and no picture.
+  void put_list(std::string list) {
+    change([&] { list_ = {std::make_shared<const std::string>(std::move(list)), ++version_}; });
+  }
+  [[nodiscard]] List list() const {
+    const std::lock_guard lock(mutex_);
+    return list_;
+  }
 
   void put_state(std::size_t scene, std::string state) {
     change([&] {
@@ -39,13 +61,20 @@ class Board {
       slots_[scene].frame_version = ++version_;
     });
   }
-  void add_viewers(std::size_t scene, int count) {
+  // Of a scene, or of all that are and come.
+  void add_viewers(std::optional<std::size_t> scene, int count) {
     const std::lock_guard lock(mutex_);
-    slots_[scene].viewers += count;
+    (scene ? slots_[*scene].viewers : viewers_of_all_) += count;
   }
   [[nodiscard]] Slot slot(std::size_t scene) const {
     const std::lock_guard lock(mutex_);
-    return slots_[scene];
+    Slot slot = slots_[scene];
+    slot.viewers += viewers_of_all_;
+    return slot;
+  }
+  void clear(std::size_t scene) {
+    const std::lock_guard lock(mutex_);
+    slots_[scene] = {.viewers = slots_[scene].viewers};
   }
 
   // Called after every change, on the thread that made it.
@@ -68,6 +97,8 @@ class Board {
 
   mutable std::mutex mutex_;
   std::vector<Slot> slots_;
+  List list_;
+  int viewers_of_all_ = 0;
   std::uint64_t version_ = 0;
   std::function<void()> listener_;
 };

@@ -9,6 +9,8 @@
 #include <array>
 #include <utility>
 
+#include "runtime/watch/scene_folder.hpp"
+
 namespace scenec::runtime {
 
 namespace {
@@ -166,9 +168,12 @@ void FileWatcher::read_events(Settle::Time now) {
 }
 
 void FileWatcher::handle(const DirectoryEvent& event, Settle::Time now) {
-  const std::set<std::string> paths = files_.files_at({event.directory, event.name});
-  if (paths.empty()) return;
   using Kind = DirectoryEvent::Kind;
+  std::set<std::string> paths = files_.files_at({event.directory, event.name});
+  // What is known already may be written and replaced without a change of the listing.
+  if (is_scene_name(event.name) && (paths.empty() || event.kind == Kind::gone))
+    paths.merge(files_.listings_of(event.directory));
+  if (paths.empty()) return;
   const bool is_content = event.kind == Kind::written || event.kind == Kind::closed;
   if (!is_content) lost_directory_ = true;  // the path may lead elsewhere now
   const Settle::Touch what = touch_of(event);

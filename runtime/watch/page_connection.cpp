@@ -76,8 +76,7 @@ void PageConnection::answer(const HttpResponse& response, Clock::time_point now)
   closing_ = after_ == AfterResponse::close;
 }
 
-void PageConnection::become_stream(const HttpRequest& request, std::vector<std::size_t> scenes,
-                                   bool pictures) {
+void PageConnection::become_stream(const HttpRequest& request, std::optional<std::size_t> scene) {
   HttpResponse response{.status = 101};
   response.headers = {
       {"Upgrade", "websocket"},
@@ -88,9 +87,7 @@ void PageConnection::become_stream(const HttpRequest& request, std::vector<std::
   };
   put(head_of(response, AfterResponse::keep_open));
   is_stream_ = true;
-  pictures_ = pictures;
-  states_sent_.assign(scenes.size(), 0);
-  scenes_ = std::move(scenes);
+  scene_ = scene;
   last_ping_ = Clock::now();
   // A small buffer in the system: what waits there is older than what could be sent instead.
   const int size = 256 * 1024;
@@ -123,17 +120,30 @@ void PageConnection::put_message(WebsocketKind kind, const Board::Bytes& bytes) 
 
 void PageConnection::send_news(const Board& board) {
   if (!is_stream_ || !out_.empty()) return;
-  for (std::size_t i = 0; i < scenes_.size(); ++i) {
-    const Board::Slot slot = board.slot(scenes_[i]);
-    if (slot.state && slot.state_version > states_sent_[i]) {
-      states_sent_[i] = slot.state_version;
-      put_message(WebsocketKind::text, slot.state);
-    }
-    if (pictures_ && !showing_ && slot.frame && slot.frame_version > frame_sent_) {
-      frame_sent_ = slot.frame_version;
-      showing_ = true;
-      put_message(WebsocketKind::binary, slot.frame);
-    }
+  const Board::List list = board.list();
+  if (list.version > list_sent_) {
+    list_sent_ = list.version;
+    put_message(WebsocketKind::text, list.bytes);
+  }
+  states_sent_.resize(board.size(), 0);
+  if (scene_) {
+    send_scene(board, *scene_, true);
+  } else {
+    // A page that lists scenes shows none of them at work.
+    for (std::size_t i = 0; i < states_sent_.size(); ++i) send_scene(board, i, !list.bytes);
+  }
+}
+
+void PageConnection::send_scene(const Board& board, std::size_t scene, bool pictures) {
+  const Board::Slot slot = board.slot(scene);
+  if (slot.state && slot.state_version > states_sent_[scene]) {
+    states_sent_[scene] = slot.state_version;
+    put_message(WebsocketKind::text, slot.state);
+  }
+  if (pictures && !showing_ && slot.frame && slot.frame_version > frame_sent_) {
+    frame_sent_ = slot.frame_version;
+    showing_ = true;
+    put_message(WebsocketKind::binary, slot.frame);
   }
 }
 

@@ -40,10 +40,10 @@ class PageConnection {
   [[nodiscard]] std::optional<std::uint64_t> answering() const { return answering_; }
   void answer(const HttpResponse& response, Clock::time_point now);
 
-  // From now on a stream of the scenes given.
-  void become_stream(const HttpRequest& request, std::vector<std::size_t> scenes, bool pictures);
+  // From now on a stream of the scene given, or of all.
+  void become_stream(const HttpRequest& request, std::optional<std::size_t> scene);
   [[nodiscard]] bool is_stream() const { return is_stream_; }
-  [[nodiscard]] const std::vector<std::size_t>& scenes() const { return scenes_; }
+  [[nodiscard]] std::optional<std::size_t> scene() const { return scene_; }  // nothing: all
   // False when the page said something it should not have.
   bool read_messages();
   void send_news(const Board& board);
@@ -64,6 +64,7 @@ class PageConnection {
     if (bytes && !bytes->empty()) out_.push_back(std::move(bytes));
   }
   void put_message(WebsocketKind kind, const Board::Bytes& bytes);
+  void send_scene(const Board& board, std::size_t scene, bool pictures);
 
   Descriptor socket_;
   std::string in_;
@@ -75,9 +76,9 @@ class PageConnection {
   bool closing_ = false;  // when all is written
 
   bool is_stream_ = false;
-  bool pictures_ = false;
-  std::vector<std::size_t> scenes_;
-  std::vector<std::uint64_t> states_sent_;
+  std::optional<std::size_t> scene_;
+  std::vector<std::uint64_t> states_sent_;  // by scene
+  std::uint64_t list_sent_ = 0;
   std::uint64_t frame_sent_ = 0;
   bool showing_ = false;  // a picture was sent that the page has not shown yet
 

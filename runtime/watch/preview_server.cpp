@@ -143,7 +143,7 @@ void PreviewServer::accept_all(int listener) {
 void PreviewServer::close(int descriptor) {
   const auto found = connections_.find(descriptor);
   if (found == connections_.end()) return;
-  for (const std::size_t scene : found->second->scenes()) board_.add_viewers(scene, -1);
+  if (found->second->is_stream()) board_.add_viewers(found->second->scene(), -1);
   connections_.erase(found);  // closing takes it out of the epoll set
   connection_count_ = connections_.size();
 }
@@ -197,20 +197,17 @@ void PreviewServer::open_stream(PageConnection& connection, const HttpRequest& r
                             request.header("sec-websocket-version").value_or("") == "13" &&
                             request.header("sec-websocket-key").value_or("").size() == 24;
   const std::string_view which = request.parameter("scene").value_or("0");
-  std::vector<std::size_t> scenes;
-  if (which == "all") {
-    for (std::size_t i = 0; i < board_.size(); ++i) scenes.push_back(i);
-  } else if (const auto number = parse_int(which);
-             number && *number >= 0 && static_cast<std::size_t>(*number) < board_.size()) {
-    scenes.push_back(static_cast<std::size_t>(*number));
+  std::optional<std::size_t> scene;
+  if (const auto number = parse_int(which);
+      number && *number >= 0 && static_cast<std::size_t>(*number) < board_.size()) {
+    scene = static_cast<std::size_t>(*number);
   }
-  if (!is_websocket || scenes.empty()) {
+  if (!is_websocket || (!scene && which != "all")) {
     connection.answer(text_response(400, "not a stream of this server\n"), now);
     return;
   }
-  for (const std::size_t scene : scenes) board_.add_viewers(scene, 1);
-  const bool pictures = scenes.size() == 1;  // a page that lists scenes shows none of them at work
-  connection.become_stream(request, std::move(scenes), pictures);
+  board_.add_viewers(scene, 1);
+  connection.become_stream(request, scene);
 }
 
 void PreviewServer::take_replies() {

@@ -8,18 +8,15 @@
 
 namespace scenec::runtime {
 
-RenderLoop::RenderLoop(const std::vector<Options>& scenes, const Environment& environment,
-                       Board& board, WatchListener& listener)
-    : board_(board),
+RenderLoop::RenderLoop(const Options& options, std::vector<std::string> scenes,
+                       const Environment& environment, Board& board, WatchListener& listener)
+    : options_(options),
+      has_list_(scenes != options.operands || scenes.size() != 1),
+      board_(board),
       listener_(listener),
-      pool_(static_cast<unsigned>(scenes.front().threads.value_or(0))),
-      wishes_(scenes.size()),
-      done_(scenes.size()),
-      shown_(scenes.size()) {
-  if (auto kept = cache_options_of(scenes.front(), environment)) cache_.emplace(std::move(*kept));
-  for (const Options& options : scenes)
-    scenes_.push_back(std::make_unique<WatchedScene>(scenes_.size(), options));
-  for (Wishes& wishes : wishes_) wishes.since = WatchClock::now();
+      pool_(static_cast<unsigned>(options.threads.value_or(0))) {
+  if (auto kept = cache_options_of(options, environment)) cache_.emplace(std::move(*kept));
+  take_scenes(std::move(scenes));
 }
 
 RenderLoop::~RenderLoop() {
@@ -63,9 +60,21 @@ void RenderLoop::break_off() {
   awake_.notify_all();
 }
 
+void RenderLoop::set_scenes(std::vector<std::string> names) {
+  const std::lock_guard lock(mutex_);
+  new_names_ = std::move(names);
+  break_off();
+}
+
+std::size_t RenderLoop::scene_count() const {
+  const std::lock_guard lock(mutex_);
+  return wishes_.size();
+}
+
 void RenderLoop::add_notice(const std::string& text) {
   const std::lock_guard lock(mutex_);
   notices_.push_back(text);
+  if (has_list_) board_.put_list(list_json());
   for (Wishes& wishes : wishes_) ++wishes.version;
   awake_.notify_all();
 }
@@ -128,11 +137,68 @@ std::optional<RenderLoop::Job> RenderLoop::find_job() {
 std::optional<RenderLoop::Job> RenderLoop::next_job(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   std::optional<Job> job;
-  awake_.wait(lock, stop, [&] { return (job = find_job()).has_value(); });
+  awake_.wait(lock, stop, [&] {
+    if (new_names_) take_scenes(*std::exchange(new_names_, std::nullopt));
+    return (job = find_job()).has_value();
+  });
   if (stop.stop_requested()) return std::nullopt;
   breakable_ = std::stop_source();
   job->stop = breakable_.get_token();
   return job;
+}
+
+// Under the lock, on the loop's thread or before it runs.
+void RenderLoop::take_scenes(std::vector<std::string> names) {
+  std::vector<bool> listed(scenes_.size(), false);
+  for (std::string& name : names) {
+    const auto known = std::find_if(scenes_.begin(), scenes_.end(),
+                                    [&](const auto& scene) { return scene->path() == name; });
+    const auto number = static_cast<std::size_t>(known - scenes_.begin());
+    if (known == scenes_.end()) {
+      Options options = options_;
+      options.operands = {std::move(name)};
+      scenes_.push_back(std::make_unique<WatchedScene>(number, std::move(options)));
+      wishes_.emplace_back().since = WatchClock::now();
+      done_.emplace_back();
+      shown_.emplace_back();
+      board_.add_scene();
+      listed.push_back(true);
+    } else {
+      // What came back while nobody knew of it is a change of the files, which have been let go.
+      if (!listed_[number] && !(*known)->latest()) {
+        wishes_[number].since = WatchClock::now();
+        ++wishes_[number].version;
+        ++wishes_[number].files_version;
+      }
+      listed[number] = true;
+    }
+  }
+  for (std::size_t i = 0; i < listed_.size(); ++i) {
+    if (listed_[i] && !listed[i] && board_.slot(i).viewers == 0) drop(i);
+  }
+  listed_ = std::move(listed);
+  if (has_list_) board_.put_list(list_json());
+}
+
+// The file is gone and nobody looks on: nothing is kept for it but its number. Whoever looks on
+// keeps the last picture, with the reason why there is no other.
+void RenderLoop::drop(std::size_t scene) {
+  const Options options = scenes_[scene]->options();
+  scenes_[scene] = std::make_unique<WatchedScene>(scene, options);
+  shown_[scene] = {};
+  done_[scene] = {.version = wishes_[scene].version,
+                  .files_version = wishes_[scene].files_version,
+                  .withheld_since = {}};
+  board_.clear(scene);
+  watcher_->watch(scene, {});
+}
+
+std::string RenderLoop::list_json() const {
+  std::vector<ListedScene> listed;
+  for (std::size_t i = 0; i < scenes_.size(); ++i) {
+    if (listed_[i]) listed.push_back({i, scenes_[i]->path()});
+  }
+  return scenec::runtime::list_json(listed, notices_);
 }
 
 void RenderLoop::work(const Job& job, const std::stop_token& stop) {
@@ -212,7 +278,6 @@ void RenderLoop::show(WatchedScene& scene) {
     listener_.pictured(scene, picture);
   }
   WatchContext context;
-  for (const auto& one : scenes_) context.scenes.push_back(one->path());
   Wishes wished;
   {
     const std::lock_guard lock(mutex_);

@@ -35,9 +35,9 @@ class WatchListener {
 
 class RenderLoop {
  public:
-  // The options of each scene, one operand each.
-  RenderLoop(const std::vector<Options>& scenes, const Environment& environment, Board& board,
-             WatchListener& listener);
+  // The options hold for every scene.
+  RenderLoop(const Options& options, std::vector<std::string> scenes,
+             const Environment& environment, Board& board, WatchListener& listener);
   ~RenderLoop();
   RenderLoop(const RenderLoop&) = delete;
   RenderLoop& operator=(const RenderLoop&) = delete;
@@ -48,6 +48,8 @@ class RenderLoop {
 
   // From any thread:
   void files_settled(const FilesSettled& settled);
+  // The scenes there are from now on. Each keeps its number, also while it is gone.
+  void set_scenes(std::vector<std::string> names);
   void add_notice(const std::string& text);
   // What an author asks for on the page. `change` runs under the loop's lock and says whether the
   // scene must be made anew for it.
@@ -56,7 +58,7 @@ class RenderLoop {
   [[nodiscard]] Wishes wishes(std::size_t scene) const;
   // What is on the screen.
   [[nodiscard]] Shown shown(std::size_t scene) const;
-  [[nodiscard]] std::size_t scene_count() const { return scenes_.size(); }
+  [[nodiscard]] std::size_t scene_count() const;
 
  private:
   struct Job {
@@ -77,6 +79,9 @@ class RenderLoop {
   void run(const std::stop_token& stop);
   [[nodiscard]] std::optional<Job> next_job(const std::stop_token& stop);
   [[nodiscard]] std::optional<Job> find_job();
+  void take_scenes(std::vector<std::string> names);
+  void drop(std::size_t scene);
+  [[nodiscard]] std::string list_json() const;
   [[nodiscard]] bool wants_refining(std::size_t scene) const;
   void work(const Job& job, const std::stop_token& stop);
   // False when there is nothing to show for it.
@@ -86,6 +91,8 @@ class RenderLoop {
   void break_off();
   void watch_files(const WatchedScene& scene);
 
+  const Options& options_;
+  bool has_list_;  // of scenes, for the page to choose from
   Board& board_;
   WatchListener& listener_;
   FileWatcher* watcher_ = nullptr;
@@ -100,6 +107,8 @@ class RenderLoop {
   std::vector<Wishes> wishes_;
   std::vector<Done> done_;
   std::vector<Shown> shown_;
+  std::vector<bool> listed_;  // by scene: not gone
+  std::optional<std::vector<std::string>> new_names_;
   std::vector<std::string> notices_;
   std::stop_source breakable_;           // of the job that may be broken off now
   WatchClock::time_point asked_;         // ... was asked to end

@@ -133,12 +133,19 @@ Json times_json(const WatchTimes& times) {
 
 }  // namespace
 
+std::string list_json(const std::vector<ListedScene>& scenes,
+                      const std::vector<std::string>& notices) {
+  Json json{{"version", 1}, {"index", Json::array()}, {"notices", notices}};
+  for (const ListedScene& one : scenes)
+    json["index"].push_back({{"scene", one.number}, {"name", one.name}});
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string state_json(const WatchedScene& scene, const Wishes& wishes,
                        const WatchContext& context) {
   Json json{{"version", 1},
             {"scene", scene.number()},
             {"name", scene.path()},
-            {"scenes", context.scenes},
             {"notices", context.notices},
             {"status", status_of(scene)},
             {"stale", scene.is_stale()},

@@ -1,4 +1,4 @@
-// The state of a scene as pages and editors read it: one JSON object.
+// The state of a scene as pages read it: one JSON object. And the list of all scenes.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,15 @@
 namespace scenec::runtime {
 
 struct WatchContext {
-  std::vector<std::string> scenes;      // names of all
   std::vector<std::string> notices;     // about the daemon itself
   std::optional<double> broken_off_ms;  // what the last render took to end when it was asked to
 };
+struct ListedScene {
+  std::size_t number = 0;
+  std::string name;
+};
+[[nodiscard]] std::string list_json(const std::vector<ListedScene>& scenes,
+                                    const std::vector<std::string>& notices);
 [[nodiscard]] std::string state_json(const WatchedScene& scene, const Wishes& wishes,
                                      const WatchContext& context);
 

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+
+#include "runtime/watch/scene_folder.hpp"
 
 namespace scenec::runtime {
 
@@ -28,6 +31,10 @@ std::vector<std::string> TrackedFiles::set(Owner owner, const std::vector<FileRe
 }
 
 TrackedFiles::State TrackedFiles::look(const std::string& path) {
+  if (is_listing(path)) {
+    const FileRecord listing = listing_of(path);
+    return {listing.found, listing.hash};
+  }
   RealFileSystem disk;
   const auto content = disk.read(path, std::numeric_limits<std::int64_t>::max());
   if (!content) return {};
@@ -80,12 +87,22 @@ void TrackedFiles::look_up_places() {
   files_at_.clear();
   for (auto& [path, entry] : files_) {
     entry.places = places_of(path);
+    if (is_listing(path)) {  // of the entries in it, whatever their names
+      std::error_code error;
+      const std::string directory = std::filesystem::canonical(path, error).string();
+      if (!error) entry.places.push_back({directory, ""});
+    }
     for (const Place& place : entry.places) {
       files_at_[place].insert(path);
       directories_.try_emplace(place.directory, Attention::entries);
     }
     if (!entry.places.empty()) directories_[entry.places.back().directory] = Attention::writes;
   }
+}
+
+std::set<std::string> TrackedFiles::listings_of(const std::string& directory) const {
+  const auto found = files_at_.find({directory, ""});
+  return found == files_at_.end() ? std::set<std::string>{} : found->second;
 }
 
 std::set<std::string> TrackedFiles::files_at(const Place& place) const {

@@ -33,6 +33,8 @@ class TrackedFiles {
   [[nodiscard]] const std::map<std::string, Attention>& directories() const { return directories_; }
   // The files whose path leads through this entry; with an empty name: through this directory.
   [[nodiscard]] std::set<std::string> files_at(const Place& place) const;
+  // The listings (scene_folder.hpp) of this directory.
+  [[nodiscard]] std::set<std::string> listings_of(const std::string& directory) const;
   // Files with an entry in one of these directories, or on a file system that does not tell what
   // other machines change.
   [[nodiscard]] std::set<std::string> files_to_poll(

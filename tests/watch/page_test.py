@@ -365,6 +365,35 @@ document.title = 'seen ' + JSON.stringify(seen);
             self.until_frame()
             self.assertIn("a.sdl", self.text("#name"))
 
+    def test_a_folder_shows_what_comes_into_it_and_goes(self):
+        with Daemon(".") as one:
+            one.start()
+            self.open(one.url)
+            self.wait(lambda: self.is_shown("#empty"), "the word that there is nothing yet")
+
+            def names():
+                return self.browser.execute_script(
+                    "return [...document.querySelectorAll('#scenes a')]"
+                    ".map((a) => a.textContent.split(' ')[0])")
+            one.write("b.sdl", ball(samples=2))
+            self.wait(lambda: names() == ["./b.sdl"], "the first scene")
+            self.assertFalse(self.is_shown("#empty"))
+            one.write("a.sdl", ball(samples=2))
+            self.wait(lambda: names() == ["./b.sdl", "./a.sdl"], "the second scene")
+            self.wait(lambda: self.text("#scenes").count("finished") == 2, "both pictures")
+            os.rename(one.path("b.sdl"), one.path("c.sdl"))
+            self.wait(lambda: names() == ["./a.sdl", "./c.sdl"], "the other name")
+            self.find("#scenes li:last-child a").click()
+            self.until_frame()
+            self.assertIn("c.sdl", self.text("#name"))
+            # Whoever looks at a scene that is deleted keeps its picture.
+            os.remove(one.path("c.sdl"))
+            self.wait(lambda: self.is_shown("#stale"), "the mark")
+            self.wait(lambda: len(self.browser.find_elements(By.CSS_SELECTOR, "#sibling option"))
+                      == 1, "the other scene alone")
+            one.write("c.sdl", ball(samples=2))
+            self.wait(lambda: not self.is_shown("#stale"), "the scene that is back")
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2, argv=sys.argv)

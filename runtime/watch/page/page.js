@@ -127,14 +127,35 @@ function show_effects(state) {
   }));
 }
 
-function show_index(state) {
-  const list = by_id('scenes');
-  if (list.children.length !== state.scenes.length) {
-    list.replaceChildren(...state.scenes.map((name, i) => element('li', {},
-      element('a', { href: `/scene/${i}` }, element('img', { alt: '', 'data-scene': i }), name,
-        element('small', {}, '')))));
+let listed = null;  // the scenes to choose from, where there is a choice
+
+function show_list(list) {
+  listed = list.index;
+  show_notices(list.notices);
+  by_id('siblings').hidden = false;
+  if (scene_number !== null) {
+    const choice = by_id('sibling');
+    choice.replaceChildren(...listed.map((one) => element('option', { value: one.scene }, one.name)));
+    choice.value = scene_number;
+    return;
   }
-  const item = list.children[state.scene];
+  by_id('siblings').hidden = true;
+  by_id('index').hidden = false;
+  by_id('empty').hidden = listed.length > 0;
+  by_id('name').textContent = listed.length === 1 ? '1 scene' : `${listed.length} scenes`;
+  by_id('status').textContent = '';
+  by_id('status').className = '';
+  const old = new Map([...by_id('scenes').children].map((item) => [item.dataset.scene, item]));
+  by_id('scenes').replaceChildren(...listed.map((one) => old.get(`${one.scene}`)
+    ?? element('li', { 'data-scene': one.scene },
+      element('a', { href: `/scene/${one.scene}` }, element('img', { alt: '' }), one.name,
+        element('small', {}, '')))));
+  for (const state of state_of.values()) show_index(state);
+}
+
+function show_index(state) {
+  const item = by_id('scenes').querySelector(`li[data-scene="${state.scene}"]`);
+  if (!item) return;
   item.querySelector('small').textContent = ` ${state.status}`;
   item.querySelector('small').className = state.status === 'broken' ? 'error' : '';
   const image = item.querySelector('img');
@@ -147,14 +168,15 @@ function show_index(state) {
   }
 }
 
+function show_notices(notices) {
+  by_id('notices').hidden = notices.length === 0;
+  by_id('notices').replaceChildren(...notices.map((text) => element('li', {}, text)));
+}
+
 function show(state) {
   state_of.set(state.scene, state);
-  by_id('notices').hidden = state.notices.length === 0;
-  by_id('notices').replaceChildren(...state.notices.map((text) => element('li', {}, text)));
-  if (state.scenes.length > 1 && scene_number === null) {
-    by_id('index').hidden = false;
-    by_id('name').textContent = `${state.scenes.length} scenes`;
-    by_id('status').textContent = '';
+  show_notices(state.notices);
+  if (listed && scene_number === null) {
     show_index(state);
     return;
   }
@@ -203,8 +225,9 @@ function connect() {
       show_frame(event.data, () => socket.readyState === 1 && socket.send('shown'));
       return;
     }
-    const state = JSON.parse(event.data);
-    show(state);
+    const said = JSON.parse(event.data);
+    if (said.index) show_list(said);
+    else show(said);
   };
   socket.onclose = async () => {
     by_id('offline').hidden = false;
@@ -218,6 +241,8 @@ function connect() {
     setTimeout(connect, Math.min(250 * tries, 2000));
   };
 }
+
+by_id('sibling').addEventListener('change', (event) => location.assign(`/scene/${event.target.value}`));
 
 if (token) {
   connect();

@@ -9,6 +9,7 @@
 #include <condition_variable>
 #include <filesystem>
 
+#include "runtime/watch/scene_folder.hpp"
 #include "tests/unit/base/temporary_directory.hpp"
 
 namespace scenec::runtime {
@@ -254,6 +255,42 @@ TEST(file_watcher, without_notification_the_files_are_looked_at) {
   fs::remove(a);
   EXPECT_TRUE(watched.next_is_change());
 }
+
+class Folders : public testing::TestWithParam<bool> {};
+
+// What is saved in a folder is no change of what it lists; what comes and goes is one.
+TEST_P(Folders, a_listing_changes_when_scenes_come_and_go) {
+  const TemporaryDirectory folder;
+  const std::string in_it = folder.write("in_it.sdl", "one");
+  Watched watched({.poll = GetParam(), .poll_every = 20ms});
+  constexpr std::size_t listing = 7;
+  const auto look = [&] {
+    watched.watcher().watch(listing, {listing_of(folder.path())});
+    watched.watcher().wait_until_armed();
+  };
+  watched.read(0, {in_it});
+  look();
+  folder.write("notes.txt", "no scene");
+  folder.write("in_it.sdl", "another");
+  auto event = watched.next();
+  ASSERT_TRUE(event);
+  EXPECT_FALSE(event->changed.contains(listing));
+  folder.write("new.sdl", "two");
+  EXPECT_TRUE(watched.next_is_change(listing));
+  look();
+  fs::rename(folder.path() + "/new.sdl", folder.path() + "/newer.sdl");
+  EXPECT_TRUE(watched.next_is_change(listing));
+  look();
+  fs::remove(folder.path() + "/newer.sdl");
+  EXPECT_TRUE(watched.next_is_change(listing));
+  look();
+  fs::rename(folder.path(), folder.path() + "-gone");
+  EXPECT_TRUE(watched.next_is_change(listing));
+  look();
+  fs::rename(folder.path() + "-gone", folder.path());
+  EXPECT_TRUE(watched.next_is_change(listing));
+}
+INSTANTIATE_TEST_SUITE_P(file_watcher, Folders, testing::Values(false, true));
 
 TEST(file_watcher, fifty_thousand_touches_lose_nothing) {
   const TemporaryDirectory folder;
