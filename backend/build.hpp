@@ -30,6 +30,8 @@ namespace scenec::backend {
 // Adds every item of the world (numbers from 0) and of the protos, and fills `scene.items`.
 void add_items(const PreparedScene& prepared, RenderScene& scene, ThreadPool& pool,
                const BuildOptions& options);
+// Builds the tree over a world's items, or takes the one that has been kept.
+void build_world(SceneAccel& world, ThreadPool& pool, const BuildOptions& options);
 // Adds the lights, their shapes, and every emissive item that can be sampled.
 void add_lights(const PreparedScene& prepared, RenderScene& scene);
 

@@ -20,6 +20,17 @@ Vector3 vector_of(const ir::Direction& d) {
   return {d.x, d.y, d.z};
 }
 
+Hash128 key_of(const ir::Revolve& shape) {
+  Hasher hasher;
+  hasher.add(shape.profile.kind);
+  hasher.add(shape.profile.clamped);
+  hasher.add(shape.profile.points.size());
+  for (const ir::Vec2& p : shape.profile.points) hasher.add(p.x), hasher.add(p.y);
+  hasher.add(shape.axis);
+  hasher.add(shape.solver);
+  return hasher.result();
+}
+
 // Shares what can be shared: one accelerator a mesh, a revolve, a proto.
 class ItemAdder {
  public:
@@ -44,7 +55,7 @@ class ItemAdder {
       auto accel = std::make_shared<SceneAccel>();
       fill(*accel, scene_.protos[ir::ProtoId(static_cast<std::uint32_t>(i))].items,
            first_of_proto_[i]);
-      accel->build(pool_, options_.target);
+      build_world(*accel, pool_, options_);
       protos_[i] = std::move(accel);
     }
     fill(out_.accel, scene_.items, 0);
@@ -84,8 +95,7 @@ class ItemAdder {
     } else if (const auto* triangle = std::get_if<Id<ir::Triangle>>(&item.shape)) {
       const ir::Triangle& shape = scene_.shape(*triangle);
       if (shape.normals || shape.uvs)
-        accel.add_mesh(number,
-                       std::make_shared<MeshAccel>(mesh_of(shape), pool_, options_.precision),
+        accel.add_mesh(number, kept_accel(std::make_shared<const TriangleMesh>(mesh_of(shape)), {}),
                        place, option);
       else
         accel.add(number, kernel_of(shape), place, option);
@@ -147,7 +157,12 @@ class ItemAdder {
   }
   std::shared_ptr<const Revolve> revolve_accel(Id<ir::Revolve> id) {
     auto& slot = revolves_[id];
-    if (!slot) slot = std::make_shared<Revolve>(revolve_of(scene_.shape(id)));
+    if (slot) return slot;
+    const Hash128 key = key_of(scene_.shape(id));
+    if (options_.trees != nullptr) slot = options_.trees->find_revolve(key);
+    if (slot) return slot;
+    slot = std::make_shared<const Revolve>(revolve_of(scene_.shape(id)));
+    if (options_.trees != nullptr) options_.trees->keep_revolve(key, slot);
     return slot;
   }
 
@@ -193,6 +208,13 @@ class ItemAdder {
 };
 
 }  // namespace
+
+void build_world(SceneAccel& world, ThreadPool& pool, const BuildOptions& options) {
+  if (options.trees != nullptr)
+    options.trees->build(world, pool, options.target);
+  else
+    world.build(pool, options.target);
+}
 
 Transform transform_of(const ir::Scene& scene, ir::TransformId id) {
   if (!id.valid()) return {};

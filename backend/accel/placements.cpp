@@ -40,4 +40,12 @@ Transform Placements::operator[](Index index) const {
   return (index & 1) != 0 ? Transform::translation(moves_[place]) : others_[place];
 }
 
+void Placements::feed(Hasher& hasher) const {
+  hasher.add(moves_.size());
+  for (std::size_t i = 0; i < moves_.size(); ++i) hasher.raw(&moves_[i], sizeof(Vector3));
+  hasher.add(others_.size());
+  for (std::size_t i = 0; i < others_.size(); ++i)
+    hasher.raw(&others_[i].rows(), sizeof(AffineRows));
+}
+
 }  // namespace scenec::backend

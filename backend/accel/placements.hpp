@@ -6,6 +6,7 @@
 
 #include "backend/geometry/kernel.hpp"
 #include "backend/math/transform.hpp"
+#include "base/hash.hpp"
 #include "ir/transform_table.hpp"
 
 namespace scenec::backend {
@@ -18,6 +19,8 @@ class Placements {
   // The identity gives `identity`. At most 2^31 - 1 of either kind.
   Index add(const Transform& world_from_object);
   [[nodiscard]] bool holds(Index index) const;
+  // All of them, in their order.
+  void feed(Hasher& hasher) const;
   // World from object.
   [[nodiscard]] Transform operator[](Index index) const;
   // The same points in object space. Not renormalised: every t stays what it is.

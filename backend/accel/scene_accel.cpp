@@ -59,7 +59,7 @@ std::uint32_t push(std::vector<T>& values, T value) {
 }  // namespace
 
 SceneAccel::SceneAccel()
-    : data_(std::make_unique<Data>()), kernels_(&query_kernels(Target::baseline)) {}
+    : data_(std::make_shared<Data>()), kernels_(&query_kernels(Target::baseline)) {}
 SceneAccel::~SceneAccel() = default;
 SceneAccel::SceneAccel(SceneAccel&&) noexcept = default;
 SceneAccel& SceneAccel::operator=(SceneAccel&&) noexcept = default;

@@ -34,6 +34,7 @@
 #include "backend/geometry/sphere.hpp"
 #include "backend/geometry/triangle.hpp"
 #include "backend/math/transform.hpp"
+#include "base/hash.hpp"
 
 namespace scenec::backend {
 
@@ -99,6 +100,12 @@ class SceneAccel {
   // Once, after all items. Hits do not depend on the target.
   void build(ThreadPool& pool, Target target = best_target());
 
+  // Before it is built: of everything that the built one would depend on. Meshes, revolves and
+  // worlds count by which they are, so keys compare only while both sides are kept.
+  [[nodiscard]] Hash128 content_key(Target target) const;
+  // Another handle of the same built world.
+  [[nodiscard]] SceneAccel share() const;
+
   // The closest hit in the ray's closed interval. The filter sees hits in full detail.
   [[nodiscard]] bool intersect(const Ray& ray, Hit& hit, const HitFilter& filter = {},
                                HitDetail detail = HitDetail::texture) const;
@@ -117,7 +124,7 @@ class SceneAccel {
   struct Data;
 
  private:
-  std::unique_ptr<Data> data_;
+  std::shared_ptr<Data> data_;   // shared once built, and not changed from then on
   const QueryKernels* kernels_;  // of the chosen instruction set
 };
 

@@ -27,19 +27,50 @@ Hash128 TreeStore::key_of(const TriangleMesh& mesh, Precision precision) {
 }
 
 std::shared_ptr<const MeshAccel> TreeStore::find(const Hash128& key) {
-  const auto found = entries_.find(key);
-  if (found == entries_.end()) return nullptr;
+  const auto found = meshes_.find(key);
+  if (found == meshes_.end()) return nullptr;
   found->second.used = true;
-  return found->second.accel;
+  ++mesh_counts_.reused;
+  return found->second.kept;
 }
 
 void TreeStore::keep(const Hash128& key, std::shared_ptr<const MeshAccel> accel) {
-  entries_[key] = {std::move(accel), true};
+  meshes_[key] = {std::move(accel), true};
+  ++mesh_counts_.made;
+}
+
+std::shared_ptr<const Revolve> TreeStore::find_revolve(const Hash128& key) {
+  const auto found = revolves_.find(key);
+  if (found == revolves_.end()) return nullptr;
+  found->second.used = true;
+  return found->second.kept;
+}
+
+void TreeStore::keep_revolve(const Hash128& key, std::shared_ptr<const Revolve> revolve) {
+  revolves_[key] = {std::move(revolve), true};
+}
+
+void TreeStore::build(SceneAccel& world, ThreadPool& pool, Target target) {
+  const Hash128 key = world.content_key(target);
+  if (const auto found = worlds_.find(key); found != worlds_.end()) {
+    found->second.used = true;
+    ++world_counts_.reused;
+    world = found->second.kept.share();
+    return;
+  }
+  world.build(pool, target);
+  worlds_[key] = {world.share(), true};
+  ++world_counts_.made;
 }
 
 void TreeStore::drop_unused() {
-  std::erase_if(entries_, [](const auto& entry) { return !entry.second.used; });
-  for (auto& [key, entry] : entries_) entry.used = false;
+  const auto drop = [](auto& entries) {
+    std::erase_if(entries, [](const auto& entry) { return !entry.second.used; });
+    for (auto& [key, entry] : entries) entry.used = false;
+  };
+  drop(worlds_);
+  drop(meshes_);
+  drop(revolves_);
 }
 
 }  // namespace scenec::backend

@@ -21,10 +21,15 @@ class Maker {
 
   std::shared_ptr<const Attempt> make() {
     PhaseClock clock(result_->stats);
-    const backend::SceneMemory::Counts before = bench_.memory.counts();
+    const Reuse before = counts();
     run(clock);
-    const backend::SceneMemory::Counts after = bench_.memory.counts();
-    result_->kept = {after.reused - before.reused, after.made - before.made};
+    const Reuse after = counts();
+    const auto since = []<class T>(const T& from, const T& to) {
+      return T{to.reused - from.reused, to.made - from.made};
+    };
+    result_->reuse = {.assets = since(before.assets, after.assets),
+                      .mesh_trees = since(before.mesh_trees, after.mesh_trees),
+                      .item_trees = since(before.item_trees, after.item_trees)};
     result_->findings = session().findings();
     result_->files = session().files().records();
     return result_;
@@ -32,6 +37,11 @@ class Maker {
 
  private:
   Session& session() { return reading_->session; }
+
+  // Of the daemon's life so far.
+  [[nodiscard]] Reuse counts() const {
+    return {bench_.memory.counts(), bench_.trees.mesh_counts(), bench_.trees.world_counts()};
+  }
 
   void run(PhaseClock& clock) {
     auto world = std::make_shared<World>();

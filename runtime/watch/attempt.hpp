@@ -37,6 +37,13 @@ struct World {
   backend::RenderScenePtr built;
 };
 
+// How much of an attempt was there already.
+struct Reuse {
+  backend::SceneMemory::Counts assets;    // meshes and pictures
+  backend::TreeStore::Counts mesh_trees;  // one a mesh
+  backend::TreeStore::Counts item_trees;  // over the world, and over each group
+};
+
 struct Attempt {
   std::shared_ptr<const Reading> reading;
   std::vector<Finding> findings;
@@ -46,8 +53,8 @@ struct Attempt {
   std::optional<ir::RenderSettings> settings;  // the scene's with the command line's changes
   std::string problem;                         // why the command line does not fit the scene
   RunStats stats;
-  backend::SceneMemory::Counts kept;  // meshes, pictures and trees of this attempt
-  bool mixed = false;                 // files were changing while they were read
+  Reuse reuse;
+  bool mixed = false;  // files were changing while they were read
   [[nodiscard]] const SourceMap& sources() const { return reading->session.sources(); }
   // The scene as it is written now.
   [[nodiscard]] const ir::Scene& scene() const { return places ? *places : *world->scene; }

@@ -55,7 +55,7 @@ void RenderLoop::files_settled(const FilesSettled& settled) {
 
 // Under the lock.
 void RenderLoop::break_off() {
-  asked_ = WatchClock::now();
+  if (refining_ && !asked_) asked_ = WatchClock::now();
   breakable_.request_stop();
   awake_.notify_all();
 }
@@ -137,11 +137,15 @@ std::optional<RenderLoop::Job> RenderLoop::find_job() {
 std::optional<RenderLoop::Job> RenderLoop::next_job(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   std::optional<Job> job;
+  if (!asked_) refining_ = false;
   awake_.wait(lock, stop, [&] {
     if (new_names_) take_scenes(*std::exchange(new_names_, std::nullopt));
     return (job = find_job()).has_value();
   });
   if (stop.stop_requested()) return std::nullopt;
+  if (const auto asked = std::exchange(asked_, std::nullopt))
+    broken_off_ms_ = std::chrono::duration<double, std::milli>(WatchClock::now() - *asked).count();
+  refining_ = !job->make && !job->begin && scenes_[job->scene]->has_coarse();
   breakable_ = std::stop_source();
   job->stop = breakable_.get_token();
   return job;
@@ -215,12 +219,7 @@ void RenderLoop::work(const Job& job, const std::stop_token& stop) {
   // A first look is finished whatever comes; only the end of the program breaks it off.
   const std::stop_token breaks = scene.has_coarse() ? job.stop : stop;
   if (!scene.wants_refining()) return;
-  if (!scene.refine(breaks)) {
-    const std::lock_guard lock(mutex_);
-    broken_off_ms_ = std::chrono::duration<double, std::milli>(WatchClock::now() - asked_).count();
-  } else if (scene.has_news(WatchClock::now())) {
-    show(scene);
-  }
+  if (scene.refine(breaks) && scene.has_news(WatchClock::now())) show(scene);
 }
 
 bool RenderLoop::make(const Job& job) {
@@ -275,6 +274,7 @@ void RenderLoop::show(WatchedScene& scene) {
   if (scene.has_news(WatchClock::now())) {
     const auto picture = scene.take_picture(WatchClock::now());
     board_.put_frame(scene.number(), frame_bytes(*picture, scene.frame_info()));
+    scene.find_changes();
     listener_.pictured(scene, picture);
   }
   WatchContext context;

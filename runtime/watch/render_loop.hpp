@@ -110,9 +110,10 @@ class RenderLoop {
   std::vector<bool> listed_;  // by scene: not gone
   std::optional<std::vector<std::string>> new_names_;
   std::vector<std::string> notices_;
-  std::stop_source breakable_;           // of the job that may be broken off now
-  WatchClock::time_point asked_;         // ... was asked to end
-  std::optional<double> broken_off_ms_;  // how long the last one took to
+  std::stop_source breakable_;                   // of the job that may be broken off now
+  bool refining_ = false;                        // the job at hand is one
+  std::optional<WatchClock::time_point> asked_;  // when it was asked to end
+  std::optional<double> broken_off_ms_;          // from there to the job after it, the last time
   std::jthread thread_;
 };
 

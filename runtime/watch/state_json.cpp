@@ -16,6 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t most_findings = 100;
+constexpr std::size_t most_changes = 50;
 
 Json findings_json(const Attempt& attempt) {
   Json list = Json::array();
@@ -40,6 +41,15 @@ Json phases_json(const Attempt& attempt) {
   return list;
 }
 
+Json reuse_json(const Reuse& reuse) {
+  const auto of = [](const auto& counts) {
+    return Json{{"kept", counts.reused}, {"made", counts.made}};
+  };
+  return {{"assets", of(reuse.assets)},
+          {"mesh_trees", of(reuse.mesh_trees)},
+          {"item_trees", of(reuse.item_trees)}};
+}
+
 Json effects_of(const WatchedScene& scene) {
   const World& world = *scene.shown()->world;
   return Json::parse(effects_json(*world.scene, *scene.settings(), scene.effects(),
@@ -49,9 +59,8 @@ Json effects_of(const WatchedScene& scene) {
 Json curve_json(const WatchedScene& scene) {
   Json list = Json::array();
   for (const CurvePoint& point : scene.curve()) {
-    list.push_back(
-        {point.seconds, point.samples, point.error.relative.value,
-         point.error.relative.low, point.error.relative.high});
+    list.push_back({point.seconds, point.samples, point.error.relative.value,
+                    point.error.relative.low, point.error.relative.high});
   }
   return list;
 }
@@ -133,6 +142,21 @@ Json times_json(const WatchTimes& times) {
 
 }  // namespace
 
+nlohmann::json changes_json(const std::vector<ir::PartChange>& changes) {
+  constexpr std::array<std::string_view, 3> whats{"added", "removed", "changed"};
+  Json list = Json::array();
+  for (const ir::PartChange& change : changes) {
+    if (list.size() == most_changes) break;
+    list.push_back({{"what", whats[static_cast<std::size_t>(change.what)]},
+                    {"family", change.family},
+                    {"kind", change.kind},
+                    {"name", change.name},
+                    {"count", change.count},
+                    {"keys", change.keys}});
+  }
+  return list;
+}
+
 std::string list_json(const std::vector<ListedScene>& scenes,
                       const std::vector<std::string>& notices) {
   Json json{{"version", 1}, {"index", Json::array()}, {"notices", notices}};
@@ -153,8 +177,8 @@ std::string state_json(const WatchedScene& scene, const Wishes& wishes,
             {"findings", findings_json(*scene.latest())},
             {"phases", phases_json(*scene.latest())},
             {"times", times_json(scene.times())},
-            {"kept", scene.latest()->kept.reused},
-            {"made", scene.latest()->kept.made},
+            {"changes", changes_json(scene.changes())},
+            {"reuse", reuse_json(scene.latest()->reuse)},
             {"params", params_json(scene, wishes)},
             {"paused", wishes.paused}};
   if (context.broken_off_ms) json["cancel_ms"] = *context.broken_off_ms;

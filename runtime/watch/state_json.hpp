@@ -1,6 +1,7 @@
 // The state of a scene as pages read it: one JSON object. And the list of all scenes.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ struct WatchContext {
   std::vector<std::string> notices;     // about the daemon itself
   std::optional<double> broken_off_ms;  // what the last render took to end when it was asked to
 };
+// What an edit has changed, part by part.
+[[nodiscard]] nlohmann::json changes_json(const std::vector<ir::PartChange>& changes);
+
 struct ListedScene {
   std::size_t number = 0;
   std::string name;

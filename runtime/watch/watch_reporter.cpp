@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "runtime/diagnostic_formats.hpp"
 #include "runtime/picture_metadata.hpp"
+#include "runtime/watch/state_json.hpp"
 
 namespace scenec::runtime {
 
@@ -126,6 +127,7 @@ void WatchReporter::print_event(const WatchedScene& scene, std::string_view even
     json["generation"] = info.generation;
     json["step"] = info.step;
     json["samples"] = scene.samples();
+    json["changes"] = changes_json(scene.changes());
     const auto& finished = scene.times().finished;
     json["ms_after_change"] =
         event == "finished" && finished ? *finished : scene.since_change(WatchClock::now());

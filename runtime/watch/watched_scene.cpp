@@ -1,6 +1,7 @@
 #include "runtime/watch/watched_scene.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace scenec::runtime {
 
@@ -10,6 +11,8 @@ namespace {
 constexpr double first_look_seconds = 0.025;
 constexpr int coarsest_step = 16;
 constexpr std::size_t most_curve_points = 240;
+// Comparing takes about a microsecond and 200 bytes an item.
+constexpr std::size_t most_compared_items = 400'000;
 
 double milliseconds(WatchClock::duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
@@ -51,9 +54,24 @@ WatchedScene::Outcome WatchedScene::adopt(std::shared_ptr<const Attempt> attempt
   latest_ = std::move(attempt);
   if (latest_->failed()) return Outcome::failed;
   const bool same = shown_ && shown_->world == latest_->world;
+  if (!same && shown_ && !compared_) compared_ = shown_->world;
+  if (same) changes_.clear();
   shown_ = latest_;
   change_ = same ? "no visible change" : "";
   return same ? Outcome::unchanged : Outcome::changed;
+}
+
+void WatchedScene::find_changes() {
+  const std::shared_ptr<const World> before = std::exchange(compared_, nullptr);
+  if (!before) return;
+  changes_.clear();
+  const ir::Scene& old = *before->scene;
+  const ir::Scene& now = *shown_->world->scene;
+  if (old.items.size() + now.items.size() > most_compared_items) {
+    change_ = "too many items to be compared one by one";
+    return;
+  }
+  changes_ = ir::changes_between(old, now);
 }
 
 bool WatchedScene::wants_new_picture(const Wishes& wishes) const {

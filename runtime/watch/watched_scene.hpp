@@ -15,6 +15,7 @@
 #include "backend/render_session.hpp"
 #include "backend/stop_rule.hpp"
 #include "frontend/frontend_cache.hpp"
+#include "ir/diff.hpp"
 #include "runtime/watch/attempt.hpp"
 #include "runtime/watch/frame_bytes.hpp"
 
@@ -101,6 +102,10 @@ class WatchedScene {
   [[nodiscard]] std::int64_t sample_cap() const { return stop_ ? stop_->cap() : 0; }
   [[nodiscard]] FrameInfo frame_info() const;
   [[nodiscard]] const std::string& change() const { return change_; }
+  // What distinguishes the scene that is shown from the one before it; known once `find_changes`
+  // was called, which takes time and may wait for the first picture.
+  [[nodiscard]] const std::vector<ir::PartChange>& changes() const { return changes_; }
+  void find_changes();
   [[nodiscard]] Shown view() const;
   // Milliseconds since the change that is shown.
   [[nodiscard]] double since_change(WatchClock::time_point now) const;
@@ -116,6 +121,8 @@ class WatchedScene {
   backend::TreeStore trees_;
   std::shared_ptr<const Attempt> latest_;
   std::shared_ptr<const Attempt> shown_;
+  std::shared_ptr<const World> compared_;  // what was shown before, until compared with
+  std::vector<ir::PartChange> changes_;
 
   // The picture in the making.
   std::optional<ir::RenderSettings> settings_;

@@ -129,6 +129,8 @@ class Page(unittest.TestCase):
         self.until_frame(2)
         red, green, _ = self.pixel()
         self.assertGreater(green, red)
+        self.wait(lambda: "material (diffuse) skin: color" in self.text("#changes"), "the change")
+        self.assertIn("trees over items: 1 kept, 0 made", self.text("#reuse"))
 
     def test_a_mistake_lies_over_the_last_good_picture_until_it_is_mended(self):
         before = self.pixel()

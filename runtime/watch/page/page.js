@@ -64,6 +64,7 @@ function show_findings(state) {
   overlay.hidden = state.status !== 'broken';
   overlay.replaceChildren(...(overlay.hidden ? [] : errors.slice(0, 5)).map((f) => element('pre', {}, f.text)));
   by_id('stale').hidden = !state.stale;
+  if (!overlay.hidden) stamp_painted('told', errors.map((f) => f.message).join().replaceAll(' ', '_'));
 }
 
 function show_progress(state) {
@@ -72,8 +73,21 @@ function show_progress(state) {
     : `${state.samples} of ${cap >= 1048576 ? 'as many samples as it takes' : `${cap} samples`}`
       + (state.paused ? ' · paused' : '');
   by_id('phases').textContent = state.phases.map((p) => `${p.name} ${p.ms.toFixed(1)} ms`).join(' · ');
-  by_id('change').textContent = [state.change, state.kept + state.made > 0
-    && `meshes, trees and pictures: ${state.kept} kept, ${state.made} made`].filter(Boolean).join(' · ');
+  by_id('change').textContent = state.change;
+  by_id('changes').replaceChildren(...state.changes.map(change_item));
+  const names = { assets: 'meshes and pictures', mesh_trees: 'trees of meshes', item_trees: 'trees over items' };
+  by_id('reuse').textContent = Object.entries(names)
+    .filter(([key]) => state.reuse[key].kept + state.reuse[key].made > 0)
+    .map(([key, name]) => `${name}: ${state.reuse[key].kept} kept, ${state.reuse[key].made} made`).join(' · ');
+}
+
+// "sphere ball: radius, material"
+function change_item(change) {
+  const what = [change.count > 1 && `${change.count} ×`, change.family === 'shape' ? change.kind
+    : change.family === 'render' ? 'render' : `${change.family} (${change.kind})`].filter(Boolean).join(' ');
+  const rest = change.what === 'changed' ? `: ${change.keys.join(', ')}` : ` ${change.what}`;
+  return element('li', { class: change.what }, what, change.name ? ' ' : '',
+    element('b', {}, change.name), rest);
 }
 
 const SVG = 'http://www.w3.org/2000/svg';
@@ -190,6 +204,16 @@ function show(state) {
   controls.show(state);
 }
 
+// When something new is on the screen, for whoever measures: "NUMBER TIME" in the body's data, time
+// in milliseconds since 1970. A frame of the browser begins, and what it paints is out behind it.
+function stamp_painted(what, number) {
+  if (document.body.dataset[what]?.startsWith(`${number} `)) return;
+  document.body.dataset[what] = `${number} `;
+  requestAnimationFrame(() => setTimeout(() => {
+    document.body.dataset[what] = `${number} ${performance.timeOrigin + performance.now()}`;
+  }));
+}
+
 // ---- the stream
 
 function show_frame(buffer, acknowledge) {
@@ -202,7 +226,7 @@ function show_frame(buffer, acknowledge) {
     document.body.dataset.frames = Number(document.body.dataset.frames ?? 0) + 1;
     document.body.dataset.generation = frame.generation;
     document.body.dataset.step = frame.step;
-    document.body.dataset.painted = performance.timeOrigin + performance.now();
+    stamp_painted('painted', frame.generation);
     acknowledge();
   };
   if (document.visibilityState === 'visible') paint();
