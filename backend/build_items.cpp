@@ -65,9 +65,9 @@ class ItemAdder {
   void fill(SceneAccel& accel, const std::vector<ir::Item>& items, std::uint32_t first) {
     for (std::size_t i = 0; i < items.size(); ++i) {
       const ir::Item& item = items[i];
-      const bool transparent = !item.material.valid() || out_.facts.transparent(item.material);
       add(accel, first + static_cast<std::uint32_t>(i), item, place_of(accel, item.transform),
-          transparent || overridden_ ? ItemOption::filtered : ItemOption::plain);
+          {.filtered = overrides_.transparent || is_transparent(item),
+           .textured = overrides_.textured || is_textured(item)});
     }
     for (const ir::Item& item : items)
       if (item.transform.valid()) places_[item.transform.value()] = unplaced;
@@ -81,34 +81,34 @@ class ItemAdder {
   }
 
   void add(SceneAccel& accel, std::uint32_t number, const ir::Item& item,
-           SceneAccel::TransformIndex place, ItemOption option) {
+           SceneAccel::TransformIndex place, ItemTraits traits) {
     if (const auto* id = std::get_if<Id<ir::Instance>>(&item.shape)) {
       const std::size_t proto = scene_.shape(*id).of.value();
       accel.add_instance(number, protos_[proto], place);
     } else if (const auto* mesh = std::get_if<Id<ir::Mesh>>(&item.shape)) {
-      accel.add_mesh(number, mesh_accel(mesh->value()), place, option);
+      accel.add_mesh(number, mesh_accel(mesh->value()), place, traits);
     } else if (const auto* revolve = std::get_if<Id<ir::Revolve>>(&item.shape)) {
       if (scene_.shape(*revolve).solver == ir::RevolveSolver::tessellated)
-        accel.add_mesh(number, tessellated_accel(*revolve), place, option);
+        accel.add_mesh(number, tessellated_accel(*revolve), place, traits);
       else
-        accel.add_revolve(number, revolve_accel(*revolve), place, option);
+        accel.add_revolve(number, revolve_accel(*revolve), place, traits);
     } else if (const auto* triangle = std::get_if<Id<ir::Triangle>>(&item.shape)) {
       const ir::Triangle& shape = scene_.shape(*triangle);
       if (shape.normals || shape.uvs)
         accel.add_mesh(number, kept_accel(std::make_shared<const TriangleMesh>(mesh_of(shape)), {}),
-                       place, option);
+                       place, traits);
       else
-        accel.add(number, kernel_of(shape), place, option);
+        accel.add(number, kernel_of(shape), place, traits);
     } else {
-      std::visit([&](auto typed) { add_kernel(accel, number, typed, place, option); }, item.shape);
+      std::visit([&](auto typed) { add_kernel(accel, number, typed, place, traits); }, item.shape);
     }
   }
 
   template <class Shape>
   void add_kernel(SceneAccel& accel, std::uint32_t number, Id<Shape> id,
-                  SceneAccel::TransformIndex place, ItemOption option) {
+                  SceneAccel::TransformIndex place, ItemTraits traits) {
     if constexpr (requires { kernel_of(scene_.shape(id)); })
-      accel.add(number, kernel_of(scene_.shape(id)), place, option);
+      accel.add(number, kernel_of(scene_.shape(id)), place, traits);
   }
 
   // Files that say the same share one mesh, and so one tree.
@@ -166,13 +166,18 @@ class ItemAdder {
     return slot;
   }
 
+  // What instances put in the place of the materials inside: any item may come to have it.
+  struct Overrides {
+    bool transparent = false;
+    bool textured = false;
+  };
+
   const PreparedScene& prepared_;
   const ir::Scene& scene_;
   RenderScene& out_;
   ThreadPool& pool_;
   const BuildOptions& options_;
-  // With an instance that replaces materials by a transparent one, any item may have to be asked.
-  bool overridden_ = has_transparent_override();
+  Overrides overrides_ = find_overrides();
   std::vector<std::uint32_t> first_of_proto_;
   std::vector<std::shared_ptr<const SceneAccel>> protos_;
   // What each transform has become in the accelerator that is being filled.
@@ -189,21 +194,27 @@ class ItemAdder {
     return count;
   }
 
-  [[nodiscard]] bool has_transparent_override() const {
-    const auto any = [&](const std::vector<ir::Item>& items) {
+  [[nodiscard]] bool is_transparent(const ir::Item& item) const {
+    return !item.material.valid() || out_.facts.transparent(item.material);
+  }
+  [[nodiscard]] bool is_textured(const ir::Item& item) const {
+    return !item.material.valid() || out_.facts.textured_emission(item.material) ||
+           out_.materials[item.material.value()].use == PreparedMaterial::Use::varied;
+  }
+
+  [[nodiscard]] Overrides find_overrides() const {
+    Overrides found;
+    const auto look_at = [&](const std::vector<ir::Item>& items) {
       for (const ir::Item& item : items) {
-        if (std::holds_alternative<Id<ir::Instance>>(item.shape) && item.material.valid() &&
-            out_.facts.transparent(item.material)) {
-          return true;
-        }
+        if (!std::holds_alternative<Id<ir::Instance>>(item.shape) || !item.material.valid())
+          continue;
+        found.transparent = found.transparent || is_transparent(item);
+        found.textured = found.textured || is_textured(item);
       }
-      return false;
     };
-    if (any(scene_.items)) return true;
-    for (const ir::Proto& proto : scene_.protos) {
-      if (any(proto.items)) return true;
-    }
-    return false;
+    look_at(scene_.items);
+    for (const ir::Proto& proto : scene_.protos) look_at(proto.items);
+    return found;
   }
 };
 

@@ -200,8 +200,7 @@ class LightAdder {
     item.light = static_cast<std::uint32_t>(out_.lights.emitters.size());
     out_.items.push_back(item);
     out_.lights.emitters.push_back(emitter);
-    out_.accel.add(number, kernel, SceneAccel::identity,
-                   visible ? ItemOption::plain : ItemOption::filtered);
+    out_.accel.add(number, kernel, SceneAccel::identity, {.filtered = !visible, .textured = false});
   }
 
   void add_light(const ir::LightKind& kind) {

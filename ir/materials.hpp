@@ -108,7 +108,7 @@ struct Schema<Conductor> {
   static constexpr std::string_view name = "conductor";
   static constexpr std::string_view doc = "A metal.";
   static constexpr auto keys = std::tuple{
-      key(&Conductor::preset, "preset", range::any, "a measured metal"),
+      key(&Conductor::preset, "preset", range::any, "a metal by name; its constants are approximate"),
       key(&Conductor::f0, "f0", range::unit, "reflectance at normal incidence"),
       key(&Conductor::eta, "eta", range::positive, "real part of the index of refraction"),
       key(&Conductor::k, "k", range::non_negative, "imaginary part of the index of refraction"),

@@ -38,7 +38,7 @@ class Flattener {
   explicit Flattener(const SceneAccel::Data& d) : d_(d) {}
 
   [[nodiscard]] static bool takes(const PlacedItem& item) {
-    return item.transform == SceneAccel::identity && item.option == ItemOption::plain &&
+    return item.transform == SceneAccel::identity && !item.traits.filtered &&
            (item.kind == ShapeKind::sphere || item.kind == ShapeKind::quad ||
             item.kind == ShapeKind::disk || item.kind == ShapeKind::plane);
   }

@@ -70,33 +70,33 @@ SceneAccel::TransformIndex SceneAccel::add_transform(const Transform& world_from
 
 template <class Shape>
 void SceneAccel::add(std::uint32_t item, const Shape& shape, TransformIndex place,
-                     ItemOption option) {
+                     ItemTraits traits) {
   static_assert(ShapeKernel<Shape>);
   SCENEC_ASSERT(!data_->built && data_->places.holds(place));
   const auto [store, kind] = store_of(*data_, shape);
-  data_->items.push_back({item, place, push(*store, shape), kind, option});
+  data_->items.push_back({item, place, push(*store, shape), kind, traits});
 }
 
-template void SceneAccel::add(std::uint32_t, const Sphere&, TransformIndex, ItemOption);
-template void SceneAccel::add(std::uint32_t, const Plane&, TransformIndex, ItemOption);
-template void SceneAccel::add(std::uint32_t, const Triangle&, TransformIndex, ItemOption);
-template void SceneAccel::add(std::uint32_t, const Quad&, TransformIndex, ItemOption);
-template void SceneAccel::add(std::uint32_t, const Disk&, TransformIndex, ItemOption);
-template void SceneAccel::add(std::uint32_t, const Box&, TransformIndex, ItemOption);
-template void SceneAccel::add(std::uint32_t, const Cylinder&, TransformIndex, ItemOption);
+template void SceneAccel::add(std::uint32_t, const Sphere&, TransformIndex, ItemTraits);
+template void SceneAccel::add(std::uint32_t, const Plane&, TransformIndex, ItemTraits);
+template void SceneAccel::add(std::uint32_t, const Triangle&, TransformIndex, ItemTraits);
+template void SceneAccel::add(std::uint32_t, const Quad&, TransformIndex, ItemTraits);
+template void SceneAccel::add(std::uint32_t, const Disk&, TransformIndex, ItemTraits);
+template void SceneAccel::add(std::uint32_t, const Box&, TransformIndex, ItemTraits);
+template void SceneAccel::add(std::uint32_t, const Cylinder&, TransformIndex, ItemTraits);
 
 void SceneAccel::add_mesh(std::uint32_t item, std::shared_ptr<const MeshAccel> mesh,
-                          TransformIndex place, ItemOption option) {
+                          TransformIndex place, ItemTraits traits) {
   SCENEC_ASSERT(!data_->built && data_->places.holds(place) && mesh != nullptr);
   data_->items.push_back(
-      {item, place, push_shared(data_->meshes, std::move(mesh)), ShapeKind::mesh, option});
+      {item, place, push_shared(data_->meshes, std::move(mesh)), ShapeKind::mesh, traits});
 }
 
 void SceneAccel::add_revolve(std::uint32_t item, std::shared_ptr<const Revolve> revolve,
-                             TransformIndex place, ItemOption option) {
+                             TransformIndex place, ItemTraits traits) {
   SCENEC_ASSERT(!data_->built && data_->places.holds(place) && revolve != nullptr);
   data_->items.push_back(
-      {item, place, push_shared(data_->revolves, std::move(revolve)), ShapeKind::revolve, option});
+      {item, place, push_shared(data_->revolves, std::move(revolve)), ShapeKind::revolve, traits});
 }
 
 void SceneAccel::add_instance(std::uint32_t item, std::shared_ptr<const SceneAccel> world,
@@ -106,7 +106,7 @@ void SceneAccel::add_instance(std::uint32_t item, std::shared_ptr<const SceneAcc
   SCENEC_ASSERT(world->data_->depth < Hit::max_instances);
   data_->depth = std::max(data_->depth, world->data_->depth + 1);
   data_->items.push_back({item, place, push_shared(data_->worlds, std::move(world)),
-                          ShapeKind::instance, ItemOption::plain});
+                          ShapeKind::instance, ItemTraits{}});
 }
 
 Bounds3 SceneAccel::Data::object_bounds(const PlacedItem& item) const {

@@ -38,7 +38,7 @@
 
 namespace scenec::backend {
 
-// Decides whether a hit on an item added with ItemOption::filtered counts (alpha cut-outs); a
+// Decides whether a hit on an item that is `filtered` counts (alpha cut-outs); a
 // refused hit lets the ray go on, within the same shape too. A reference to any callable
 // `bool(const Hit&)`; must not outlive it. Empty: everything counts.
 class HitFilter {
@@ -62,7 +62,10 @@ class HitFilter {
   bool (*call_)(void*, const Hit&) = nullptr;
 };
 
-enum class ItemOption : std::uint8_t { plain, filtered };
+struct ItemTraits {
+  bool filtered = false;  // hits are put before the filter
+  bool textured = true;   // HitDetail::where_textured includes it
+};
 
 // A hit without the surface there: all that a benchmark or a count of crossings needs.
 struct FoundHit {
@@ -88,11 +91,11 @@ class SceneAccel {
   // `item` is the caller's number, returned in hits. Numbers need not be unique or ordered.
   template <class Shape>
   void add(std::uint32_t item, const Shape& shape, TransformIndex place = identity,
-           ItemOption option = ItemOption::plain);
+           ItemTraits traits = {});
   void add_mesh(std::uint32_t item, std::shared_ptr<const MeshAccel> mesh,
-                TransformIndex place = identity, ItemOption option = ItemOption::plain);
+                TransformIndex place = identity, ItemTraits traits = {});
   void add_revolve(std::uint32_t item, std::shared_ptr<const Revolve> revolve,
-                   TransformIndex place = identity, ItemOption option = ItemOption::plain);
+                   TransformIndex place = identity, ItemTraits traits = {});
   // `world` must be built. Its hits carry `item` in `Hit::instances`.
   void add_instance(std::uint32_t item, std::shared_ptr<const SceneAccel> world,
                     TransformIndex place = identity);

@@ -30,7 +30,7 @@ struct PlacedItem {
   std::uint32_t transform = 0;  // into Data::places, 0 = identity
   std::uint32_t index = 0;      // into the array of its kind
   ShapeKind kind = ShapeKind::sphere;
-  ItemOption option = ItemOption::plain;
+  ItemTraits traits;
 };
 
 struct SceneAccel::Data {

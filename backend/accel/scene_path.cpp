@@ -84,6 +84,8 @@ void complete(const ItemPath& path, const Ray& world_ray, const ShapeHit& found,
   Ray ray = world_ray;
   for (std::uint32_t i = 0; i < path.size; ++i) ray = to_object(path.steps[i], ray);
   const Placement& leaf = path.leaf();
+  if (detail == HitDetail::where_textured)
+    detail = leaf.item->traits.textured ? HitDetail::texture : HitDetail::place;
   Surface s = object_surface(leaf, ray, found, detail);
   for (std::uint32_t i = path.size; i-- > 0;) to_outer(path.steps[i], s, detail);
   hit.t = found.t;

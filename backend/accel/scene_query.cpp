@@ -253,7 +253,7 @@ class Query {
 
   [[nodiscard]] bool passes(const PlacedItem& item, const ShapeHit& hit) const {
     if constexpr (filtering == Filtering::none) return true;
-    if (item.option == ItemOption::plain) return true;
+    if (!item.traits.filtered) return true;
     Hit whole;
     complete(path_, world_ray_, hit, HitDetail::texture, whole);
     return filter_.keeps(whole);

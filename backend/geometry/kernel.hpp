@@ -41,7 +41,8 @@ struct ShapeHit {
 };
 
 // How much of a surface is wanted: texture coordinates cost angles, which light alone needs none of.
-enum class HitDetail : std::uint8_t { place, texture };
+// `where_textured`: on items that were said to need them.
+enum class HitDetail : std::uint8_t { place, where_textured, texture };
 
 // The surface at a hit, in the shape's own space. Normals point to the outer side (winding, or
 // dp_du x dp_dv), whatever side the ray came from, and need not be unit.
@@ -50,7 +51,7 @@ struct Surface {
   Vector3 error;  // bound on the distance of `point` from the surface, an axis at a time
   Normal3 geometric_normal;
   Normal3 shading_normal;
-  // Of no meaning unless HitDetail::texture is asked for.
+  // Of no meaning unless they are asked for.
   double u = 0;
   double v = 0;
   Vector3 dp_du;  // zero where u has no direction (a pole)

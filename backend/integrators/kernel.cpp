@@ -51,13 +51,15 @@ bool layers_need(const ir::RenderSettings& settings, bool (*wants)(ir::Aov)) {
 
 TraceJob trace_job(const RenderScene& scene, const ir::RenderSettings& settings,
                    EffectMask effects) {
-  const bool on_surface =
-      (effects & mask_of({ir::Effect::textures, ir::Effect::normal_maps})) != 0 ||
-      layers_need(settings, [](ir::Aov aov) { return aov == ir::Aov::uv; });
+  const bool textured = (effects & mask_of({ir::Effect::textures, ir::Effect::normal_maps})) != 0;
+  const HitDetail detail = layers_need(settings, [](ir::Aov aov) { return aov == ir::Aov::uv; })
+                               ? HitDetail::texture
+                           : textured ? HitDetail::where_textured
+                                      : HitDetail::place;
   const bool first = layers_need(settings, [](ir::Aov aov) {
     return aov != ir::Aov::variance && aov != ir::Aov::samples && aov != ir::Aov::trust;
   });
-  return {scene, settings, effects, on_surface ? HitDetail::texture : HitDetail::place, first};
+  return {scene, settings, effects, detail, first};
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 // Degenerate: reference in the plane of a flat piece: density 0, no sample; reference on or inside
 // a
 //             sphere: uniform in area.
-// Proof:      tests/unit/backend/lights/emitter_test.cpp (P03-P05, P08).
+// Proof:      tests/unit/backend/lights/lights_test.cpp (P03-P05, P08).
 #pragma once
 
 #include <cmath>

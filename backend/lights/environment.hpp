@@ -6,7 +6,7 @@
 //             neighbours (so bilinear lookups are covered) times the sine of the row.
 // Error:      densities to 8 ulp of the table's step.
 // Degenerate: a black picture is never chosen; at the poles the density is 0.
-// Proof:      tests/unit/backend/lights/environment_test.cpp.
+// Proof:      tests/unit/backend/lights/lights_test.cpp.
 #pragma once
 
 #include <memory>

@@ -9,7 +9,7 @@
 // Degenerate: no lights, or no power: nothing is drawn. A point light at the reference point itself
 //             gives no sample (P09). Constant environments are never drawn, as every direction
 //             finds them; `sample` serves them when asked by number.
-// Proof:      tests/unit/backend/lights/light_table_test.cpp.
+// Proof:      tests/unit/backend/lights/lights_test.cpp.
 #pragma once
 
 #include <optional>

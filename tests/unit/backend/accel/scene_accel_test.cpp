@@ -246,7 +246,7 @@ TEST(SceneAccel, TiesGoToTheSmallestItem) {
 
 TEST(SceneAccel, FilterLetsRaysGoOn) {
   SceneAccel accel;
-  accel.add(0, Sphere{{0, 0, 5}, 1}, SceneAccel::identity, ItemOption::filtered);
+  accel.add(0, Sphere{{0, 0, 5}, 1}, SceneAccel::identity, {.filtered = true});
   accel.add(1, Sphere{{0, 0, 9}, 1});
   accel.build(pool());
   const Ray ray{{0, 0, 0}, {0, 0, 1}};
