@@ -42,7 +42,8 @@ void add_items(Hasher& hasher, const std::vector<PlacedItem>& items) {
   for (const PlacedItem& item : items) {
     hasher.add(std::uint64_t{item.item} << 32 | item.transform);
     hasher.add(std::uint64_t{item.index} << 16 | static_cast<std::uint64_t>(item.kind) << 8 |
-               static_cast<std::uint64_t>(item.option));
+               static_cast<std::uint64_t>(item.traits.filtered) << 1 |
+               static_cast<std::uint64_t>(item.traits.textured));
   }
 }
 
