@@ -1,13 +1,17 @@
-// scenec-bench: `rays ...` replays recorded rays; anything else goes to Google Benchmark.
+// scenec-bench: `rays ...` replays recorded rays, `scaling` measures trees of growing meshes;
+// anything else goes to Google Benchmark.
 #include <benchmark/benchmark.h>
 
 #include <string_view>
 
 #include "tests/bench/rays.hpp"
+#include "tests/bench/scaling.hpp"
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "rays")
     return scenec::bench::run_rays(argc - 2, argv + 2);
+  if (argc > 1 && std::string_view(argv[1]) == "scaling")
+    return scenec::bench::run_scaling(argc - 2, argv + 2);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

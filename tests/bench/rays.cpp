@@ -2,18 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <time.h>
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <string>
-#include <thread>
 
 #include "backend/accel/scene_accel.hpp"
 #include "tests/bench/ray_check.hpp"
+#include "tests/bench/ray_timing.hpp"
 
 namespace scenec::bench {
 namespace {
@@ -22,8 +19,6 @@ using backend::FoundHit;
 using backend::MeshAccel;
 using backend::Ray;
 using backend::SceneAccel;
-
-enum class Clock : std::uint8_t { wall, cpu };
 
 struct Arguments {
   std::string dump;
@@ -70,16 +65,6 @@ bool parse(int count, char** words, Arguments& out) {
   return !out.dump.empty() && !out.mesh.empty();
 }
 
-// Processor time is the better measure where other programs share the machine.
-double now(Clock clock) {
-  if (clock == Clock::cpu) {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  }
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 void trace(const SceneAccel& accel, const DumpSet& set, std::size_t first, std::size_t last,
            std::vector<DumpHit>& out) {
   for (std::size_t i = first; i < last; ++i) {
@@ -94,24 +79,6 @@ void trace(const SceneAccel& accel, const DumpSet& set, std::size_t first, std::
   }
 }
 
-// Seconds; chunks of 4096 rays to whichever thread is free.
-double time_of(const SceneAccel& accel, const DumpSet& set, const Arguments& arguments,
-               std::vector<DumpHit>& out) {
-  std::atomic<std::size_t> next{0};
-  const std::size_t count = set.rays.size();
-  const auto work = [&] {
-    for (std::size_t first = 0; (first = next.fetch_add(4096)) < count;)
-      trace(accel, set, first, std::min(first + 4096, count), out);
-  };
-  const double start = now(arguments.clock);
-  {
-    std::vector<std::jthread> others;
-    for (unsigned i = 1; i < arguments.threads; ++i) others.emplace_back(work);
-    work();
-  }
-  return now(arguments.clock) - start;
-}
-
 std::uint64_t checksum_of(const std::vector<DumpHit>& hits) {
   std::uint64_t hash = 1469598103934665603ULL;
   for (const DumpHit& h : hits) hash = (hash ^ h.primitive) * 1099511628211ULL;
@@ -123,7 +90,9 @@ void run_set(const SceneAccel& accel, const DumpSet& set, const backend::Triangl
   std::vector<DumpHit> hits(set.rays.size());
   std::vector<double> seconds;
   for (int i = 0; i < arguments.repeat; ++i)
-    seconds.push_back(time_of(accel, set, arguments, hits));
+    seconds.push_back(seconds_of(
+        set.rays.size(), arguments.threads, arguments.clock,
+        [&](std::size_t first, std::size_t last) { trace(accel, set, first, last, hits); }));
   std::sort(seconds.begin(), seconds.end());
   const double count = static_cast<double>(set.rays.size()) * 1e-6;
   const HitComparison c = compare_hits(set, hits, mesh, arguments.list);
@@ -159,11 +128,11 @@ int run_rays(int count, char** words) {
   std::shared_ptr<const MeshAccel> built;
   for (int i = 0; i < std::min(arguments.repeat, 3); ++i) {
     built.reset();
-    const double start = now(arguments.clock);
+    const double start = seconds_now(arguments.clock);
     built = std::make_shared<const MeshAccel>(
         shared, pool,
         arguments.full_precision ? backend::Precision::full : backend::Precision::mixed);
-    best = std::min(best, now(arguments.clock) - start);
+    best = std::min(best, seconds_now(arguments.clock) - start);
   }
   fmt::print("build seconds {:.4f} threads {} bytes_per_triangle {:.1f} nodes {} vertices {}\n",
              best, pool.size(),

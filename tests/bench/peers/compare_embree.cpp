@@ -11,22 +11,20 @@
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <immintrin.h>
-#include <time.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "backend/accel/scene_accel.hpp"
-#include "tests/bench/peers/ray_sets.hpp"
 #include "tests/bench/ray_check.hpp"
+#include "tests/bench/ray_sets.hpp"
+#include "tests/bench/ray_timing.hpp"
 
 namespace scenec::bench {
 namespace {
@@ -45,31 +43,13 @@ struct Settings {
   Precision precision = Precision::mixed;
 };
 
-double processor_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 // A thing that answers a range of rays.
 using Tracer = std::function<void(const DumpSet&, std::size_t, std::size_t, std::vector<DumpHit>&)>;
 
 double time_of(const Tracer& tracer, const DumpSet& set, unsigned threads,
                std::vector<DumpHit>& out) {
-  constexpr std::size_t chunk = 4096;
-  std::atomic<std::size_t> next{0};
-  const std::size_t count = set.rays.size();
-  const auto work = [&] {
-    for (std::size_t first = 0; (first = next.fetch_add(chunk)) < count;)
-      tracer(set, first, std::min(first + chunk, count), out);
-  };
-  const double start = processor_seconds();
-  {
-    std::vector<std::jthread> others;
-    for (unsigned i = 1; i < threads; ++i) others.emplace_back(work);
-    work();
-  }
-  return processor_seconds() - start;
+  return seconds_of(set.rays.size(), threads, Clock::cpu,
+                    [&](std::size_t first, std::size_t last) { tracer(set, first, last, out); });
 }
 
 class EmbreeScene {
@@ -80,7 +60,7 @@ class EmbreeScene {
       for (const double x : {p.x, p.y, p.z}) vertices_.push_back(static_cast<float>(x));
     }
     vertices_.push_back(0);  // it may read past the last one
-    const double start = processor_seconds();
+    const double start = seconds_now(Clock::cpu);
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                vertices_.data(), 0, 12, mesh.positions.size());
@@ -94,7 +74,7 @@ class EmbreeScene {
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_);
-    build_seconds_ = processor_seconds() - start;
+    build_seconds_ = seconds_now(Clock::cpu) - start;
   }
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -212,9 +192,9 @@ bool compare_mesh(const std::string& path, const Settings& settings, Ratios& rat
   const EmbreeScene robust(*mesh, RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_ROBUST);
   const EmbreeScene fastest(*mesh, RTC_BUILD_QUALITY_HIGH, RTC_SCENE_FLAG_NONE);
   ThreadPool pool(1);
-  const double start = processor_seconds();
+  const double start = seconds_now(Clock::cpu);
   const auto built = std::make_shared<const MeshAccel>(mesh, pool, settings.precision);
-  const double seconds = processor_seconds() - start;
+  const double seconds = seconds_now(Clock::cpu) - start;
   SceneAccel accel;
   accel.add_mesh(0, built);
   accel.build(pool);

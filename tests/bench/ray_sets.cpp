@@ -1,4 +1,4 @@
-#include "tests/bench/peers/ray_sets.hpp"
+#include "tests/bench/ray_sets.hpp"
 
 #include <algorithm>
 #include <bit>
