@@ -4,9 +4,10 @@
 // ones; at the end the geometric means.
 //
 //   scenec-compare-embree [--resolution N] [--threads N] [--rounds N] [--interior] [--subdivide]
-//                         [--double] MESH...
+//                         [--double] [--list N] MESH...
 //
-// --interior, --subdivide: of the meshes behind it. Time is processor time, of all threads; the
+// --interior, --subdivide: of the meshes behind it. --list: shows the first mismatches beside the
+// answer in long double. Time is processor time, of all threads; the
 // fastest round counts. Embree traces with flush-to-zero on, as it asks; we never do.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -40,6 +41,7 @@ struct Settings {
   unsigned threads = 1;
   int rounds = 5;
   bool subdivide = false;
+  int list = 0;  // mismatches to show
   Precision precision = Precision::mixed;
 };
 
@@ -171,7 +173,7 @@ void compare_set(DumpSet& set, const backend::TriangleMesh& mesh, const SceneAcc
   }
   set.hits.resize(set.rays.size());
   robust.trace(set, 0, set.rays.size(), set.hits);  // without flush-to-zero
-  const HitComparison c = compare_hits(set, own, mesh, 0);
+  const HitComparison c = compare_hits(set, own, mesh, settings.list);
   const double rays = static_cast<double>(set.rays.size()) * 1e-6 * settings.threads;
   ratios.robust.push_back(best[1] / best[0]);
   ratios.fastest.push_back(best[2] / best[0]);
@@ -227,6 +229,8 @@ int run(int count, char** words) {
       settings.threads = static_cast<unsigned>(number());
     } else if (word == "--rounds") {
       settings.rounds = number();
+    } else if (word == "--list") {
+      settings.list = number();
     } else if (word == "--interior") {
       settings.rays.interior = true;
     } else if (word == "--subdivide") {
