@@ -15,6 +15,7 @@
 #include "base/packed_bytes.hpp"
 #include "base/text.hpp"
 #include "runtime/cli.hpp"
+#include "runtime/picture_metadata.hpp"
 
 namespace scenec::runtime {
 
@@ -68,14 +69,6 @@ std::string text_of(const std::optional<ir::Region>& region) {
   return region ? fmt::format("{},{},{},{}", region->x0, region->y0, region->x1, region->y1)
                 : "the whole picture";
 }
-std::string text_of(const ir::EffectSet& effects) {
-  std::string text;
-  for (std::size_t i = 0; i < ir::effect_count; ++i) {
-    const auto effect = static_cast<ir::Effect>(i);
-    if (effects.has(effect)) text += fmt::format("{}{}", text.empty() ? "" : " ", name_of(effect));
-  }
-  return text;
-}
 
 // What writers that were killed left behind: `.NAME.tmp-PROCESS` of processes that are gone.
 void remove_leftovers(const std::string& path) {
@@ -118,7 +111,7 @@ RenderIdentity identity_of(const ir::Scene& scene, const ir::RenderSettings& set
           {"film", name_of_value(settings.film)},
           {"sampler", name_of_value(settings.sampler)},
           {"background", text_of(settings.background)},
-          {"effects", text_of(effects)},
+          {"effects", names_of(effects)},
           {"precision", fmt::format("{}", static_cast<int>(options.precision))},
           {"layers", layers}};
 }

@@ -132,7 +132,11 @@ std::optional<UsageError> find_operand_problem(const Options& options) {
   if (takes_two && options.operands.size() != 2) {
     return UsageError{fmt::format("`{}` needs the names of two files", verb.name)};
   }
-  if (options.operands.size() > 1 && !takes_many && !takes_two && !explains_effects) {
+  const bool takes_file_and_scene = verb.operands == "FILE [SCENE]";
+  if (takes_file_and_scene && (options.operands.empty() || options.operands.size() > 2))
+    return UsageError{fmt::format("`{}` needs a picture and its scene", verb.name)};
+  const bool takes_more = takes_many || takes_two || takes_file_and_scene || explains_effects;
+  if (options.operands.size() > 1 && !takes_more) {
     return UsageError{fmt::format("`{}` takes one {} at a time; `{}` is a second one", verb.name,
                                   takes_scenes ? "scene" : "name",
                                   printable(options.operands[1]))};

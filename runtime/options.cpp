@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/shell_words.hpp"
 #include "base/text.hpp"
 
 namespace scenec::runtime {
@@ -18,16 +19,25 @@ using Problem = std::optional<std::string>;
 constexpr VerbSet render_only{Verb::render};
 constexpr VerbSet picturing{Verb::render, Verb::watch};
 constexpr VerbSet rendering{Verb::render, Verb::watch, Verb::study};
-constexpr VerbSet compiling{Verb::render, Verb::watch, Verb::check, Verb::dump, Verb::explain,
-                            Verb::study};
-constexpr VerbSet reading{Verb::render,  Verb::watch, Verb::check,  Verb::dump,
+constexpr VerbSet compiling{Verb::render,  Verb::watch, Verb::check, Verb::dump,
+                            Verb::explain, Verb::study, Verb::verify};
+constexpr VerbSet parametric{Verb::render, Verb::watch,   Verb::check,
+                             Verb::dump,   Verb::explain, Verb::study};
+constexpr VerbSet reading{Verb::render,  Verb::watch, Verb::check,   Verb::dump,
                           Verb::convert, Verb::fmt,   Verb::explain, Verb::study};
+constexpr VerbSet colored{Verb::render, Verb::watch,   Verb::check, Verb::dump,  Verb::convert,
+                          Verb::fmt,    Verb::explain, Verb::study, Verb::verify};
 constexpr VerbSet diagnosing{Verb::render,  Verb::check,   Verb::dump,
                              Verb::convert, Verb::explain, Verb::study};
-constexpr VerbSet rooted{Verb::render, Verb::watch,   Verb::check,
-                         Verb::dump,   Verb::convert, Verb::explain, Verb::study};
+constexpr VerbSet printing{Verb::render,  Verb::check, Verb::dump,  Verb::convert,
+                           Verb::explain, Verb::study, Verb::verify};
+constexpr VerbSet rooted{Verb::render,  Verb::watch,   Verb::check, Verb::dump,
+                         Verb::convert, Verb::explain, Verb::study, Verb::verify};
 constexpr VerbSet writing{Verb::render,  Verb::watch, Verb::dump,
                           Verb::convert, Verb::diff,  Verb::study};
+constexpr VerbSet sampling{Verb::render, Verb::watch, Verb::study, Verb::verify};
+constexpr VerbSet caching{Verb::render, Verb::watch, Verb::check, Verb::verify};
+constexpr VerbSet working{Verb::render, Verb::watch, Verb::check, Verb::study, Verb::verify};
 constexpr VerbSet watch_only{Verb::watch};
 
 constexpr std::int64_t largest_sample_count = 1048576;
@@ -125,8 +135,9 @@ Problem store_display_server(Options& options, std::string_view text) {
 
 using Text = std::string_view;
 constexpr std::array option_table{
-    OptionRow{"-o,--output", "FILE", "where to write (pictures: .png, .exr or .bmp; study: a folder)",
-              writing, [](Options& o, Text v) { return store_path(o.output, v); }},
+    OptionRow{"-o,--output", "FILE",
+              "where to write (pictures: .png, .exr or .bmp; study: a folder)", writing,
+              [](Options& o, Text v) { return store_path(o.output, v); }},
     OptionRow{"--size", "WxH", "width and height in pixels", rendering,
               [](Options& o, Text v) { return store_parsed(o.size, parse_size(v)); }},
     OptionRow{"--samples", "N", "samples a pixel; replaces the scene's samples and stop", picturing,
@@ -137,12 +148,12 @@ constexpr std::array option_table{
               [](Options& o, Text v) { return store_parsed(o.error, parse_share(v)); }},
     OptionRow{"--time", "TIME", "stop after this time: 500ms, 30s, 2min, 1h", rendering,
               [](Options& o, Text v) { return store_parsed(o.time, parse_duration(v)); }},
-    OptionRow{"--seed", "N", "seed of all random choices", rendering,
+    OptionRow{"--seed", "N", "seed of all random choices", sampling,
               [](Options& o, Text v) {
                 return store_parsed(
                     o.seed, parse_whole_number(v, 0, std::numeric_limits<std::int64_t>::max()));
               }},
-    OptionRow{"--method", "NAME", "path, whitted or phong", compiling,
+    OptionRow{"--method", "NAME", "path, whitted or phong", parametric,
               [](Options& o, Text v) {
                 return store_choice<ir::Method>(o.method, v, ir::EnumNames<ir::Method>::names);
               }},
@@ -153,9 +164,9 @@ constexpr std::array option_table{
               }},
     OptionRow{"--region", "x0,y0,x1,y1", "render these pixels only", picturing,
               [](Options& o, Text v) { return store_parsed(o.region, parse_region(v)); }},
-    OptionRow{"-D", "NAME=VALUE", "set a parameter of the scene; may be repeated", compiling,
+    OptionRow{"-D", "NAME=VALUE", "set a parameter of the scene; may be repeated", parametric,
               store_setting, ValueNeed::required, Repeat::many},
-    OptionRow{"--params", "FILE", "set parameters from a JSON object; -D wins", compiling,
+    OptionRow{"--params", "FILE", "set parameters from a JSON object; -D wins", parametric,
               [](Options& o, Text v) { return store_path(o.params_file, v); }},
     OptionRow{"--frames", "a..b", "render these frames, setting the `@clock` parameter for each",
               render_only,
@@ -218,17 +229,15 @@ constexpr std::array option_table{
 #include "base/limits.def"
 #undef SCENEC_LIMIT
     OptionRow{"--cache", "DIR|off", "where decoded meshes are kept (default: the user's cache)",
-              VerbSet{Verb::render, Verb::watch, Verb::check},
+              caching,
               [](Options& o, Text v) -> Problem {
                 if (v.empty()) return "`off` or the name of a directory";
                 o.cache = v;
                 return std::nullopt;
               }},
-    OptionRow{"--cache-limit", "SIZE", "bytes the cache may take (default 2GiB)",
-              VerbSet{Verb::render, Verb::watch, Verb::check},
+    OptionRow{"--cache-limit", "SIZE", "bytes the cache may take (default 2GiB)", caching,
               [](Options& o, Text v) { return store_parsed(o.cache_budget, parse_byte_count(v)); }},
-    OptionRow{"--threads", "N", "threads to work with (default: all)",
-              VerbSet{Verb::render, Verb::watch, Verb::check, Verb::study},
+    OptionRow{"--threads", "N", "threads to work with (default: all)", working,
               [](Options& o, Text v) {
                 return store_parsed(o.threads, parse_whole_number(v, 1, largest_thread_count));
               }},
@@ -248,19 +257,19 @@ constexpr std::array option_table{
     OptionRow{"--tolerance", "E", "exit code 1 if the relative error is above this: 1%",
               VerbSet{Verb::diff},
               [](Options& o, Text v) { return store_parsed(o.tolerance, parse_share(v)); }},
-    OptionRow{"--progress", "STYLE", "auto, plain, json or none", rendering,
+    OptionRow{"--progress", "STYLE", "auto, plain, json or none", sampling,
               [](Options& o, Text v) {
                 constexpr std::array<Text, 4> names{"auto", "plain", "json", "none"};
                 return store_choice<ProgressStyle>(o.progress, v, names);
               }},
     OptionRow{"--stats", "table|json:FILE", "say where time and rays went", render_only,
               store_stats, ValueNeed::optional},
-    OptionRow{"--color", "WHEN", "auto, always or never", reading,
+    OptionRow{"--color", "WHEN", "auto, always or never", colored,
               [](Options& o, Text v) {
                 constexpr std::array<Text, 3> names{"auto", "always", "never"};
                 return store_choice<ColorChoice>(o.color, v, names);
               }},
-    OptionRow{"--diagnostics", "FORM", "text, json (one object a line) or sarif", diagnosing,
+    OptionRow{"--diagnostics", "FORM", "text, json (one object a line) or sarif", printing,
               [](Options& o, Text v) {
                 constexpr std::array<Text, 3> names{"text", "json", "sarif"};
                 return store_choice<DiagnosticsForm>(o.diagnostics, v, names);
@@ -325,7 +334,7 @@ constexpr std::array option_table{
               },
               ValueNeed::none},
     OptionRow{"--json", "", "as JSON (the default of schema); watch: events, one object a line",
-              VerbSet{Verb::schema, Verb::explain, Verb::watch, Verb::diff},
+              VerbSet{Verb::schema, Verb::explain, Verb::watch, Verb::diff, Verb::verify},
               [](Options& o, Text) -> Problem {
                 o.markdown = false;
                 o.json = true;
@@ -354,7 +363,7 @@ std::string output_of(const Options& options) {
 std::string picture_command(const Options& options) {
   std::string text = "scenec render";
   const auto add = [&](std::string_view name, const std::string& value) {
-    text += fmt::format(" {} {}", name, value);
+    text += fmt::format(" {} {}", name, shell_word(value));
   };
   if (options.size) {
     add("--size", fmt::format("{}x{}", options.size->width, options.size->height));

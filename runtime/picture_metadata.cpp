@@ -30,12 +30,13 @@ std::string utc_now() {
 
 backend::EncodeOptions encode_options(const Options& options, const ir::Scene& scene,
                                       const ir::RenderSettings& settings,
-                                      const backend::Picture& picture, unsigned threads,
-                                      const backend::ErrorEstimate& error) {
+                                      const ir::EffectSet& effects, const backend::Picture& picture,
+                                      unsigned threads, const backend::ErrorEstimate& error) {
   backend::EncodeOptions encode{.half = options.half, .metadata = {}};
   encode.metadata = {{"software", std::string(version_text)},
                      {"scenec/scene_hash", scene.hash.hex()},
                      {"scenec/command", picture_command(options)},
+                     {"scenec/effects", names_of(effects)},
                      {"scenec/seed", std::to_string(settings.seed)},
                      {"scenec/samples", std::to_string(picture.samples)}};
   if (error.known) {
@@ -53,6 +54,15 @@ backend::EncodeOptions encode_options(const Options& options, const ir::Scene& s
     encode.metadata.emplace_back("scenec/scene", options.operands.at(0));
   }
   return encode;
+}
+
+std::string names_of(const ir::EffectSet& effects) {
+  std::string text;
+  for (std::size_t i = 0; i < ir::effect_count; ++i) {
+    const auto effect = static_cast<ir::Effect>(i);
+    if (effects.has(effect)) text += fmt::format("{}{}", text.empty() ? "" : " ", name_of(effect));
+  }
+  return text;
 }
 
 }  // namespace scenec::runtime

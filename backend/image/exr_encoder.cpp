@@ -89,6 +89,10 @@ void write(StringStream& stream, const imf::Header& header, std::span<const ExrC
 
 }  // namespace
 
+void round_to_half(std::vector<float>& values) {
+  for (float& value : values) value = half(value);
+}
+
 Result<std::string, AssetProblem> encode_exr(std::uint32_t width, std::uint32_t height,
                                              std::span<const ExrChannel> channels,
                                              std::span<const ExrAttribute> attributes) {

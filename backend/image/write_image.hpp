@@ -42,6 +42,9 @@ struct ExrChannel {
   ExrDepth depth = ExrDepth::float32;  // half: rounded to nearest, above 65504 infinite
 };
 
+// The values as a file with `half` channels holds them.
+void round_to_half(std::vector<float>& values);
+
 // CIE x, y of red, green, blue and white.
 struct Chromaticities {
   std::array<float, 8> xy{0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};  // Rec. 709

@@ -138,7 +138,7 @@ class RenderRun {
     picture.complete = complete;
     stats_.error = session.error();
     clock_.finish("render");
-    const ExitCode code = write(scene, settings, picture, format);
+    const ExitCode code = write(scene, settings, effects, picture, format);
     if (code == ExitCode::ok && complete) keeper.finish(session, state);
     return told_of(keeper) ? ExitCode::file_error : code;
   }
@@ -165,16 +165,17 @@ class RenderRun {
   }
 
   ExitCode write(const ir::Scene& scene, const ir::RenderSettings& settings,
-                 const backend::Picture& picture, backend::ImageFormat format) {
+                 const ir::EffectSet& effects, const backend::Picture& picture,
+                 backend::ImageFormat format) {
     if (picture.samples == 0) {
       environment_.err << "scenec: stopped before the first sample; nothing written\n";
       return exit_code();
     }
     Options told = options_;
     told.settings = session_.settings();  // those of the file of parameters too
-    const std::string bytes =
-        backend::encode(picture, settings, format,
-                        encode_options(told, scene, settings, picture, pool_.size(), stats_.error));
+    const std::string bytes = backend::encode(
+        picture, settings, format,
+        encode_options(told, scene, settings, effects, picture, pool_.size(), stats_.error));
     if (const auto problem = write_file(output_, bytes)) return *problem;
     clock_.finish("write");
     if (progress_ != ProgressStyle::none && progress_ != ProgressStyle::json) {

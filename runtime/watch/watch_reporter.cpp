@@ -80,9 +80,10 @@ void WatchReporter::pictured(const WatchedScene& scene,
 void WatchReporter::write_output(const WatchedScene& scene,
                                  std::shared_ptr<const backend::Picture> picture) {
   jobs_.put(
-      [this, picture = std::move(picture), attempt = scene.shown(), settings = *scene.settings()] {
-        const backend::EncodeOptions encode =
-            encode_options(attempt->reading->options, attempt->scene(), settings, *picture, 0);
+      [this, picture = std::move(picture), attempt = scene.shown(), settings = *scene.settings(),
+       effects = scene.effects().simulated()] {
+        const backend::EncodeOptions encode = encode_options(
+            attempt->reading->options, attempt->scene(), settings, effects, *picture, 0);
         const std::string bytes =
             backend::encode(*picture, settings, *backend::image_format_of(options_.output), encode);
         const auto problem = write_file_atomically(options_.output, bytes);
