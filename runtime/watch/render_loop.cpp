@@ -123,6 +123,7 @@ std::optional<RenderLoop::Job> RenderLoop::find_job() {
     done_[*found].files_version = wishes_[*found].files_version;
     return job;
   }
+  if (WatchClock::now() < give_way_until_) return std::nullopt;
   for (const bool viewed : {true, false}) {
     for (std::size_t k = 1; k <= scenes_.size(); ++k) {
       const std::size_t i = (turn_ + k) % scenes_.size();
@@ -138,10 +139,11 @@ std::optional<RenderLoop::Job> RenderLoop::next_job(const std::stop_token& stop)
   std::unique_lock lock(mutex_);
   std::optional<Job> job;
   if (!asked_) refining_ = false;
-  awake_.wait(lock, stop, [&] {
+  const auto is_there = [&] {
     if (new_names_) take_scenes(*std::exchange(new_names_, std::nullopt));
     return (job = find_job()).has_value();
-  });
+  };
+  if (!awake_.wait_until(lock, stop, give_way_until_, is_there)) awake_.wait(lock, stop, is_there);
   if (stop.stop_requested()) return std::nullopt;
   if (const auto asked = std::exchange(asked_, std::nullopt))
     broken_off_ms_ = std::chrono::duration<double, std::milli>(WatchClock::now() - *asked).count();
@@ -149,60 +151,6 @@ std::optional<RenderLoop::Job> RenderLoop::next_job(const std::stop_token& stop)
   breakable_ = std::stop_source();
   job->stop = breakable_.get_token();
   return job;
-}
-
-// Under the lock, on the loop's thread or before it runs.
-void RenderLoop::take_scenes(std::vector<std::string> names) {
-  std::vector<bool> listed(scenes_.size(), false);
-  for (std::string& name : names) {
-    const auto known = std::find_if(scenes_.begin(), scenes_.end(),
-                                    [&](const auto& scene) { return scene->path() == name; });
-    const auto number = static_cast<std::size_t>(known - scenes_.begin());
-    if (known == scenes_.end()) {
-      Options options = options_;
-      options.operands = {std::move(name)};
-      scenes_.push_back(std::make_unique<WatchedScene>(number, std::move(options)));
-      wishes_.emplace_back().since = WatchClock::now();
-      done_.emplace_back();
-      shown_.emplace_back();
-      board_.add_scene();
-      listed.push_back(true);
-    } else {
-      // What came back while nobody knew of it is a change of the files, which have been let go.
-      if (!listed_[number] && !(*known)->latest()) {
-        wishes_[number].since = WatchClock::now();
-        ++wishes_[number].version;
-        ++wishes_[number].files_version;
-      }
-      listed[number] = true;
-    }
-  }
-  for (std::size_t i = 0; i < listed_.size(); ++i) {
-    if (listed_[i] && !listed[i] && board_.slot(i).viewers == 0) drop(i);
-  }
-  listed_ = std::move(listed);
-  if (has_list_) board_.put_list(list_json());
-}
-
-// The file is gone and nobody looks on: nothing is kept for it but its number. Whoever looks on
-// keeps the last picture, with the reason why there is no other.
-void RenderLoop::drop(std::size_t scene) {
-  const Options options = scenes_[scene]->options();
-  scenes_[scene] = std::make_unique<WatchedScene>(scene, options);
-  shown_[scene] = {};
-  done_[scene] = {.version = wishes_[scene].version,
-                  .files_version = wishes_[scene].files_version,
-                  .withheld_since = {}};
-  board_.clear(scene);
-  watcher_->watch(scene, {});
-}
-
-std::string RenderLoop::list_json() const {
-  std::vector<ListedScene> listed;
-  for (std::size_t i = 0; i < scenes_.size(); ++i) {
-    if (listed_[i]) listed.push_back({i, scenes_[i]->path()});
-  }
-  return scenec::runtime::list_json(listed, notices_);
 }
 
 void RenderLoop::work(const Job& job, const std::stop_token& stop) {
@@ -219,7 +167,18 @@ void RenderLoop::work(const Job& job, const std::stop_token& stop) {
   // A first look is finished whatever comes; only the end of the program breaks it off.
   const std::stop_token breaks = scene.has_coarse() ? job.stop : stop;
   if (!scene.wants_refining()) return;
-  if (scene.refine(breaks) && scene.has_news(WatchClock::now())) show(scene);
+  if (!scene.refine(breaks) || !scene.has_news(WatchClock::now())) return;
+  const bool is_first = !scene.has_coarse();
+  if (!is_first && job.stop.stop_requested()) return;  // shown with what comes of the change
+  show(scene);
+  if (is_first) give_way(job.scene);
+}
+
+// Browsers need processors too: refining begins when a first picture, or a message, has had the
+// time to be painted.
+void RenderLoop::give_way(std::size_t scene) {
+  constexpr std::chrono::milliseconds painting{30};
+  if (board_.slot(scene).viewers > 0) give_way_until_ = WatchClock::now() + painting;
 }
 
 bool RenderLoop::make(const Job& job) {
@@ -235,6 +194,7 @@ bool RenderLoop::make(const Job& job) {
   listener_.attempted(scene);
   if (outcome == WatchedScene::Outcome::changed) return true;
   show(scene);
+  if (outcome == WatchedScene::Outcome::failed) give_way(job.scene);
   return outcome == WatchedScene::Outcome::unchanged;
 }
 

@@ -89,6 +89,7 @@ class RenderLoop {
   bool withhold(std::size_t scene, const Attempt& attempt);
   void show(WatchedScene& scene);
   void break_off();
+  void give_way(std::size_t scene);
   void watch_files(const WatchedScene& scene);
 
   const Options& options_;
@@ -101,6 +102,7 @@ class RenderLoop {
   std::optional<ContentCache> cache_;
   std::vector<std::unique_ptr<WatchedScene>> scenes_;
   std::size_t turn_ = 0;  // of the scenes that are refined
+  WatchClock::time_point give_way_until_{};
 
   mutable std::mutex mutex_;
   std::condition_variable_any awake_;

@@ -131,7 +131,9 @@ bool WatchedScene::refine(const std::stop_token& stop) {
   seconds_per_sample_ =
       seconds * step * step / (samples * static_cast<double>(pixel_count(*settings_)));
   if (step > 1) return true;
-  const backend::ErrorEstimate error = session_->error();
+  // Estimating takes tens of milliseconds, and whoever breaks off does not wait for that.
+  const backend::ErrorEstimate error =
+      stop.stop_requested() ? backend::ErrorEstimate{} : session_->error();
   if (error.known) {
     curve_.push_back({render_seconds_, session_->samples(), error});
     if (curve_.size() > most_curve_points) {  // every other one; the last stays

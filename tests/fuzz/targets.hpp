@@ -19,19 +19,22 @@ void fuzz_ply(std::string_view bytes);
 void fuzz_image(std::string_view bytes);
 // A command line, one word a line, and behind an empty line the file that its `--params` names.
 void fuzz_settings(std::string_view bytes);
+// What a client sends to the preview server.
+void fuzz_socket(std::string_view bytes);
 
 struct Target {
   std::string_view name;
   void (*run)(std::string_view bytes);
 };
 // `fuzz_NAME` is the binary, tests/fuzz/corpus/NAME holds the kept inputs.
-inline constexpr std::array<Target, 6> targets{{
+inline constexpr std::array<Target, 7> targets{{
     {"native", fuzz_native},
     {"course", fuzz_course},
     {"mesh", fuzz_mesh},
     {"ply", fuzz_ply},
     {"image", fuzz_image},
     {"settings", fuzz_settings},
+    {"socket", fuzz_socket},
 }};
 
 }  // namespace scenec::fuzz

@@ -18,6 +18,8 @@ import urllib.error
 import urllib.request
 
 SCENEC = os.environ["SCENEC"]
+# How many times as long as usual is waited: programs that look after themselves are slow.
+PATIENCE = float(os.environ.get("SCENEC_PATIENCE", "1"))
 
 BALL = """sdl 1;
 /// Power of the lamp.
@@ -42,7 +44,7 @@ def ball(color="rgb(0.8, 0.2, 0.1)", fov=40, width=160, height=90, samples=16):
 
 def wait_for(condition, what, seconds=20.0):
     """The condition's value as soon as it is one."""
-    end = time.monotonic() + seconds
+    end = time.monotonic() + seconds * PATIENCE
     while True:
         value = condition()
         if value:
@@ -62,6 +64,8 @@ class Daemon:
         self.options = options
         self.environment = environment or {}
         self.process = None
+        self.prefix = []  # of the command
+        self.user = None  # who runs it; nothing: who runs the test
 
     def write(self, name, text):
         path = os.path.join(self.folder, name)
@@ -76,8 +80,8 @@ class Daemon:
         self.log = open(self.path("stderr.log"), "wb")
         environment = dict(os.environ, SCENEC_CACHE="off", **self.environment)
         self.process = subprocess.Popen(
-            [SCENEC, "watch", *self.scenes, *self.options], cwd=self.folder, env=environment,
-            stdout=subprocess.PIPE, stderr=self.log)
+            [*self.prefix, SCENEC, "watch", *self.scenes, *self.options], cwd=self.folder,
+            env=environment, stdout=subprocess.PIPE, stderr=self.log, user=self.user)
         address = wait_for(lambda: re.search(r"http://127\.0\.0\.1:(\d+)/#token=([0-9a-f]+)",
                                              self.errors()), "the address")
         self.url = address.group(0)
@@ -93,7 +97,7 @@ class Daemon:
         if self.process is None:
             return None
         self.process.send_signal(number)
-        self.process.communicate(timeout=20)
+        self.process.communicate(timeout=20 * PATIENCE)
         code, self.process = self.process.returncode, None
         self.log.close()
         return code
@@ -119,7 +123,7 @@ class Daemon:
         request = urllib.request.Request(f"http://127.0.0.1:{self.port}{path}", data=data,
                                          headers=all_headers, method=method)
         try:
-            with urllib.request.urlopen(request, timeout=20) as answer:
+            with urllib.request.urlopen(request, timeout=20 * PATIENCE) as answer:
                 return answer.status, answer.read()
         except urllib.error.HTTPError as problem:
             return problem.code, problem.read()
@@ -139,7 +143,7 @@ class Stream:
     """The daemon's WebSocket, as a page sees it."""
 
     def __init__(self, daemon, scene="0", shows=True, headers=None, token=None):
-        self.socket = socket.create_connection(("127.0.0.1", daemon.port), timeout=20)
+        self.socket = socket.create_connection(("127.0.0.1", daemon.port), timeout=20 * PATIENCE)
         key = base64.b64encode(os.urandom(16)).decode()
         lines = {"Host": f"127.0.0.1:{daemon.port}", "Upgrade": "websocket", "Connection": "Upgrade",
                  "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": key,
@@ -205,7 +209,7 @@ class Stream:
 
     def until(self, condition, what, seconds=20.0):
         """Reads on until the condition on this stream holds."""
-        end = time.monotonic() + seconds
+        end = time.monotonic() + seconds * PATIENCE
         while not condition(self):
             left = end - time.monotonic()
             if left <= 0:

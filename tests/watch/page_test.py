@@ -124,6 +124,22 @@ class Page(unittest.TestCase):
         self.assertIn("compile", self.text("#phases"))
         self.assertGreater(len(self.browser.find_elements(By.CSS_SELECTOR, "#effects li")), 10)
 
+    def test_the_error_is_drawn_with_its_band(self):
+        self.daemon.write("scene.sdl", ball(fov=41, samples=64))
+        self.until_frame(2)
+        self.until_finished()
+        line, band = self.wait(lambda: self.browser.execute_script(
+            "const of = (what) => document.querySelector('#curve .' + what)?.getAttribute('points')"
+            ".split(' ').map((pair) => pair.split(',').map(Number));"
+            "return of('line') && [of('line'), of('band')]"), "the curve")
+        self.assertEqual(len(band), 2 * len(line))  # its upper edge, and back along the lower one
+        for i, (x, y) in enumerate(line):
+            upper, lower = band[i], band[-1 - i]
+            self.assertEqual((upper[0], lower[0]), (x, x))
+            self.assertLessEqual(upper[1], y)
+            self.assertGreaterEqual(lower[1], y)
+        self.assertIn("error", self.text("#status"))
+
     def test_an_edit_gives_a_new_picture(self):
         self.daemon.write("scene.sdl", ball(color="rgb(0.1, 0.8, 0.1)", samples=8))
         self.until_frame(2)
@@ -333,16 +349,40 @@ document.title = 'seen ' + JSON.stringify(seen);
 
     def test_it_fits_a_phone_and_works_from_the_keyboard(self):
         self.until_finished()
-        self.browser.set_window_size(500, 900)
-        try:
-            wide = self.browser.execute_script(
-                "return document.documentElement.scrollWidth - window.innerWidth")
-            self.assertLessEqual(wide, 0)
-            self.shot("phone")
-        finally:
-            self.browser.set_window_size(1280, 860)
+        for scheme in ("dark", "light"):
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+                "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+            self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+                "width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True})
+            try:
+                wide, canvas = self.browser.execute_script(
+                    "return [document.documentElement.scrollWidth - window.innerWidth,"
+                    " document.getElementById('picture').getBoundingClientRect().width]")
+                self.assertLessEqual(wide, 0)
+                self.assertGreater(canvas, 340)  # the picture has nearly all of the width
+                self.shot("phone-" + scheme)
+            finally:
+                self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
         self.find("#picture").send_keys("p")
         self.assertTrue(self.find("input[value=probe]").is_selected())
+        # Everything that can be used is reached by the tabulator, and nothing else holds it up.
+        reached = []
+        self.browser.execute_script("document.getElementById('home').focus()")
+        for _ in range(80):
+            ActionChains(self.browser, 5).send_keys("\ue004").perform()
+            reached.append(self.browser.execute_script(
+                "return document.activeElement.id || document.activeElement.tagName"))
+            if reached[-1] == "BODY":
+                break
+        for wanted in ("picture", "pin", "exposure", "pause", "save-png", "save-exr"):
+            self.assertIn(wanted, reached)
+        self.find("#picture").send_keys("a")
+        self.assertTrue(self.is_shown("#pinned"))
+        self.find("#picture").send_keys("a")
+        self.find("#picture").send_keys(" ")
+        self.wait(lambda: self.find("#pause").get_attribute("aria-pressed") == "true", "the pause")
+        self.find("#picture").send_keys(" ")
+        self.wait(lambda: self.find("#pause").get_attribute("aria-pressed") == "false", "the end of it")
         self.find("#picture").send_keys("\ue012")  # arrow to the left
         self.wait(lambda: self.generation() >= 2, "the picture from elsewhere")
         unnamed = self.browser.execute_script(
