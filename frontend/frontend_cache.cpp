@@ -1,5 +1,6 @@
 #include "frontend/frontend_cache.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "frontend/compile.hpp"
@@ -87,21 +88,34 @@ void FrontendCache::begin_compilation() {
   ++compilations_;
   while (!entries_.empty() && compilations_ - entries_.back().last_used > unused_for_)
     forget_oldest();
-  if (module_bytes() <= module_budget_) return;
+  if (module_bytes() <= module_budget_ && !has_stale_modules()) return;
   modules_.clear();
   file_numbers_.clear();
   rows_ = ir::SceneBuilder();
   declaration_count_ = 0;
 }
 
-std::shared_ptr<const KeptModule> FrontendCache::find_module(Hash128 key) const {
+bool FrontendCache::has_stale_modules() const {
+  constexpr std::size_t few = 256;  // counting them is not worth the while
+  if (modules_.size() <= few) return false;
+  const auto is_stale = [&](const auto& entry) {
+    return compilations_ - entry.second.last_used > unused_for_;
+  };
+  const auto stale = std::count_if(modules_.begin(), modules_.end(), is_stale);
+  return static_cast<std::size_t>(stale) > modules_.size() / 2;
+}
+
+std::shared_ptr<const KeptModule> FrontendCache::find_module(Hash128 key) {
   const auto found = modules_.find(key);
-  return found == modules_.end() ? nullptr : found->second;
+  if (found == modules_.end()) return nullptr;
+  found->second.last_used = compilations_;
+  return found->second.module;
 }
 
 void FrontendCache::keep_module(Hash128 key, KeptModule module) {
   declaration_count_ += module.declarations.size();
-  modules_.insert_or_assign(key, std::make_shared<const KeptModule>(std::move(module)));
+  modules_.insert_or_assign(
+      key, ModuleEntry{std::make_shared<const KeptModule>(std::move(module)), compilations_});
 }
 
 FileId FrontendCache::file_number(Hash128 key) {

@@ -50,7 +50,8 @@ class FrontendCache {
  public:
   // Keeps about `byte_budget` bytes of trees, and as much of modules unless told otherwise; what
   // was used longest ago goes first. A tree that `unused_for` compilations did without goes in any
-  // case: under ten thousand edits nothing grows.
+  // case, and all modules go when most of them are of that kind: under ten thousand edits nothing
+  // grows.
   explicit FrontendCache(std::size_t byte_budget = std::size_t{256} << 20)
       : FrontendCache(byte_budget, byte_budget, std::numeric_limits<std::uint64_t>::max()) {}
   FrontendCache(std::size_t byte_budget, std::size_t module_budget, std::uint64_t unused_for)
@@ -65,6 +66,7 @@ class FrontendCache {
   };
   [[nodiscard]] const Counters& counters() const { return counters_; }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
+  [[nodiscard]] std::size_t module_count() const { return modules_.size(); }
 
   // The tree of the text, parsed now or earlier. What parsing reports is reported either way.
   [[nodiscard]] grammar::SyntaxTree tree_of(grammar::Dialect dialect, FileId file,
@@ -74,7 +76,7 @@ class FrontendCache {
   // Before anything else: what has become too much is forgotten.
   void begin_compilation();
   // `key`: hash of a file's place and text.
-  [[nodiscard]] std::shared_ptr<const KeptModule> find_module(Hash128 key) const;
+  [[nodiscard]] std::shared_ptr<const KeptModule> find_module(Hash128 key);
   void keep_module(Hash128 key, KeptModule module);
   // A param of the scene itself.
   void note_param(ParamInfo info) { params_.push_back(std::move(info)); }
@@ -104,7 +106,13 @@ class FrontendCache {
     std::size_t bytes = 0;
     std::uint64_t last_used = 0;  // in which compilation
   };
+  struct ModuleEntry {
+    std::shared_ptr<const KeptModule> module;
+    std::uint64_t last_used = 0;
+  };
   void forget_down_to(std::size_t budget);
+  // Most of the modules are of texts that are gone; they share tables, so they go together.
+  [[nodiscard]] bool has_stale_modules() const;
   [[nodiscard]] std::size_t module_bytes() const;
 
   void forget_oldest();
@@ -117,7 +125,7 @@ class FrontendCache {
   Counters counters_;
   std::list<Entry> entries_;  // the one used last first
   std::unordered_map<Key, std::list<Entry>::iterator, KeyHash> index_;
-  std::unordered_map<Hash128, std::shared_ptr<const KeptModule>> modules_;
+  std::unordered_map<Hash128, ModuleEntry> modules_;
   std::unordered_map<Hash128, FileId> file_numbers_;
   ir::SceneBuilder rows_;  // what the values of modules refer to
   std::size_t declaration_count_ = 0;

@@ -358,5 +358,29 @@ TEST(FrontendCache, the_budget_is_kept_and_the_oldest_go) {
   EXPECT_EQ(cache.counters().files_parsed, 21u);
 }
 
+// A daemon under edits without end, good ones and bad ones: each leaves a tree and a module behind.
+TEST(FrontendCache, what_no_edit_uses_any_more_goes_with_mistakes_too) {
+  FrontendCache cache(std::size_t{64} << 20, std::size_t{8} << 20, 16);
+  MemoryFileSystem files;
+  files.put("scene.sdl", main_text);
+  CompileOptions options;
+  options.cache = &cache;
+  std::size_t most_bytes = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const bool is_broken = i % 3 == 0;
+    files.put("lib.sdl", fmt::format("sdl 1;\nlet size = {};\nlet other = {};\n"
+                                     "material gold: diffuse {{ color = rgb(0.9, 0.7, 0.1); }}\n",
+                                     is_broken ? "" : fmt::format("{}.5", i), i));
+    SourceMap sources;
+    DiagnosticSink sink;
+    EXPECT_EQ(compile("scene.sdl", options, files, sources, sink).has_value(), !is_broken);
+    EXPECT_LE(cache.module_count(), 300u);
+    if (i == 100) most_bytes = cache.bytes();
+    if (i > 100) {
+      EXPECT_LE(cache.bytes(), most_bytes * 3 / 2);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scenec::frontend::test
