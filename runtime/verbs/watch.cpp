@@ -118,6 +118,7 @@ ExitCode verbs::watch(const Options& options, const Environment& environment) {
   loop.start(watcher);
   jobs.run(signals.stop());
   loop.stop();
+  server->stop();  // before what its handler uses goes
   reporter.end();
   const int signal = signals.signal_received();
   return signal == 0 ? ExitCode::ok : static_cast<ExitCode>(128 + signal);

@@ -77,9 +77,15 @@ PreviewServer::PreviewServer(Listening listening, Gate gate, Board& board, Handl
 }
 
 PreviewServer::~PreviewServer() {
+  stop();
+}
+
+void PreviewServer::stop() {
+  if (!thread_.joinable()) return;
   board_.on_change(nullptr);
   thread_.request_stop();
   wake();
+  thread_.join();
 }
 
 void PreviewServer::wake() {

@@ -53,6 +53,9 @@ class PreviewServer {
   PreviewServer(const PreviewServer&) = delete;
   PreviewServer& operator=(const PreviewServer&) = delete;
 
+  // Ends the thread: the handler is not called from then on.
+  void stop();
+
   void reply(RequestId id, HttpResponse response);
   // There is something new on the board.
   void wake();
