@@ -7,6 +7,7 @@
 #include "backend/backend.hpp"
 #include "backend/prepare_assets.hpp"
 #include "backend/scene_memory.hpp"
+#include "backend/textures/pyramid.hpp"
 #include "base/text.hpp"
 #include "ir/print.hpp"
 
@@ -236,6 +237,16 @@ std::vector<ir::AssetId> images_of(const ir::Scene& scene) {
   return images;
 }
 
+// Whether smaller copies of a picture will be made.
+bool is_blurred(const ir::Scene& scene, ir::AssetId asset) {
+  for (const ir::TextureNode& node : scene.textures) {
+    const auto* image = std::get_if<ir::ImageTexture>(&node.kind);
+    if (image != nullptr && image->file == asset && image->filter == ir::TextureFilter::trilinear)
+      return true;
+  }
+  return false;
+}
+
 Diagnostic too_much_memory(const ir::Scene& scene, const Limits& limits) {
   const Span first = scene.assets.size() == 0 ? Span{} : scene.assets[ir::AssetId(0)].span;
   return Diagnostic(DiagnosticKind::assets_too_large, first,
@@ -267,7 +278,10 @@ PreparedPtr prepare_all(const ir::Scene& scene, FileSystem& files, ThreadPool& p
       prepare_group(groups[i], scene, spans, source, *prepared, reports[i]);
     } else {
       const ir::AssetId asset = images[i - groups.size()];
-      prepared->images[asset.value()] = kept_picture(scene.assets[asset], source, reports[i]);
+      auto& image = prepared->images[asset.value()];
+      image = kept_picture(scene.assets[asset], source, reports[i]);
+      // For colour and for data.
+      if (image && is_blurred(scene, asset)) budget.take(2 * Pyramid::memory_for(*image));
     }
   });
   const std::size_t errors_before = sink.error_count();

@@ -27,19 +27,10 @@ void check_layers(const ir::Scene& scene, DiagnosticSink& sink) {
   }
 }
 
-void check_textures(const ir::Scene& scene, DiagnosticSink& sink) {
-  for (const ir::TextureNode& node : scene.textures) {
-    const auto* image = std::get_if<ir::ImageTexture>(&node.kind);
-    if (image == nullptr || image->filter != ir::TextureFilter::trilinear) continue;
-    refuse(sink, scene.assets[image->file].span, "`filter = .trilinear`", "use `.bilinear`");
-  }
-}
-
 }  // namespace
 
 void check_supported(const ir::Scene& scene, DiagnosticSink& sink) {
   check_layers(scene, sink);
-  check_textures(scene, sink);
 }
 
 }  // namespace scenec::backend

@@ -93,6 +93,12 @@ Sample2 CameraSampler::lens_point(Sample2 u) const {
   return {b.u * first.cos + b.v * second.cos, b.u * first.sin + b.v * second.sin};
 }
 
+PixelCone CameraSampler::cone() const {
+  if (kind_ == Kind::orthographic) return {pixel_size_ / 2, 0};
+  if (kind_ == Kind::panorama) return {0, pi / half_width_ / 2};
+  return {0, 1 / focal_pixels_ / 2};
+}
+
 Ray CameraSampler::ray(double film_x, double film_y, Sample2 lens) const {
   Ray ray = ray_at(film_x, film_y, lens);
   // What lies in the plane of the lens is not before it: at most four roundings a component, of

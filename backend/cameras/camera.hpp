@@ -8,6 +8,7 @@
 // Proof:      tests/unit/backend/cameras/camera_test.cpp (C01-C05).
 #pragma once
 
+#include "backend/cameras/pixel_cone.hpp"
 #include "backend/geometry/kernel.hpp"
 #include "backend/math/sampling.hpp"
 #include "ir/cameras.hpp"
@@ -22,6 +23,8 @@ class CameraSampler {
 
   // Whether `lens` numbers are read.
   [[nodiscard]] bool has_lens() const { return lens_radius_ > 0; }
+  // What a pixel sees in the middle of the film.
+  [[nodiscard]] PixelCone cone() const;
   // The ray's direction is unit.
   // It begins behind the rounding of its origin: a wall in which the camera stands hides nothing.
   [[nodiscard]] Ray ray(double film_x, double film_y, Sample2 lens) const;

@@ -79,6 +79,7 @@ struct Hit {
   double v = 0;
   Vector3 dp_du;
   Vector3 dp_dv;
+  double width = 0;  // of the pixel's cone along the surface; set by who follows the path
 };
 
 template <class Shape>

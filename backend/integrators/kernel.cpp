@@ -59,7 +59,7 @@ TraceJob trace_job(const RenderScene& scene, const ir::RenderSettings& settings,
   const bool first = layers_need(settings, [](ir::Aov aov) {
     return aov != ir::Aov::variance && aov != ir::Aov::samples && aov != ir::Aov::trust;
   });
-  return {scene, settings, effects, detail, first};
+  return {scene, settings, effects, detail, first, {}};
 }
 
 }  // namespace
@@ -91,6 +91,8 @@ TileKernel::TileKernel(const RenderScene& scene, const ir::RenderSettings& setti
                          effects.has(ir::Effect::depth_of_field) ? CameraSampler::Lens::simulated
                                                                  : CameraSampler::Lens::left_out),
            FilterSampler(settings.filter)},
-      run_(choose(settings.method, mask_of(effects), choice).run) {}
+      run_(choose(settings.method, mask_of(effects), choice).run) {
+  if (scene.textures.wants_widths()) job_.trace.cone = job_.camera.cone();
+}
 
 }  // namespace scenec::backend

@@ -69,6 +69,8 @@ class PathTracer {
     if constexpr ((compiled & bit_of(ir::Effect::refraction)) != 0) {
       if (!media_.empty()) throughput_ *= transmittance(tracer_, media_, hit.t);
     }
+    length_ += hit.t;
+    tracer_.widen(hit, ray_.direction, length_);
     const RenderItem& item = scene_.items[hit.item];
     const ir::MaterialId material =
         item.light != RenderItem::none ? ir::MaterialId{} : scene_.material_of(hit);
@@ -236,6 +238,7 @@ class PathTracer {
   Ray ray_;
   Rgb throughput_{1, 1, 1};
   Rgb radiance_;
+  double length_ = 0;       // of the path so far
   double eta_scale_ = 1;    // radiance scalings undone, for judging what the path can still bring
   double scatter_pdf_ = 0;  // of the last direction
   bool specular_ = true;    // the last direction could not have been found by aiming

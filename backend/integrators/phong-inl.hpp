@@ -14,7 +14,8 @@ struct PhongTerms {
 };
 
 // Materials of other kinds show their colour as a matt one: enough to see what stands where.
-[[nodiscard]] PhongTerms phong_terms(const RenderScene& scene, ir::MaterialId material, Sample2 uv);
+[[nodiscard]] PhongTerms phong_terms(const RenderScene& scene, ir::MaterialId material,
+                                     const TexturePlace& at);
 [[nodiscard]] Rgb phong_shade(const PhongTerms& terms, const Vector3& normal,
                               const Vector3& to_viewer, const Vector3& to_light, const Rgb& light);
 
@@ -36,6 +37,7 @@ TracedSample trace_phong(const Tracer<compiled>& tracer, const Ray& ray, const S
     hit = Hit{};
   }
   out.covered = true;
+  tracer.widen(hit, ray.direction, distance(ray.origin, hit.point));
   PhongTerms terms = phong_terms(scene, scene.material_of(hit), tracer.texture_place(hit));
   if (!tracer.template with<ir::Effect::glossy>()) terms.specular = {};
   const Vector3 n = hit.shading_normal.vector();

@@ -5,26 +5,26 @@
 
 namespace scenec::backend {
 
-PhongTerms phong_terms(const RenderScene& scene, ir::MaterialId id, Sample2 uv) {
+PhongTerms phong_terms(const RenderScene& scene, ir::MaterialId id, const TexturePlace& at) {
   const ir::Material& material = scene.scene->materials[id];
   const TextureEvaluator& t = scene.textures;
   if (const auto* m = std::get_if<ir::Phong>(&material.kind)) {
-    return {t.color(m->diffuse, uv), t.color(m->specular, uv), t.number(m->shininess, uv)};
+    return {t.color(m->diffuse, at), t.color(m->specular, at), t.number(m->shininess, at)};
   }
   if (const auto* m = std::get_if<ir::Diffuse>(&material.kind))
-    return {t.color(m->color, uv), {}, 0};
+    return {t.color(m->color, at), {}, 0};
   if (const auto* m = std::get_if<ir::Mirror>(&material.kind))
-    return {t.color(m->color, uv), {}, 0};
+    return {t.color(m->color, at), {}, 0};
   if (const auto* m = std::get_if<ir::Dielectric>(&material.kind))
-    return {t.color(m->tint, uv), {}, 0};
-  if (const auto* m = std::get_if<ir::Ggx>(&material.kind)) return {t.color(m->base, uv), {}, 0};
+    return {t.color(m->tint, at), {}, 0};
+  if (const auto* m = std::get_if<ir::Ggx>(&material.kind)) return {t.color(m->base, at), {}, 0};
   if (const auto* m = std::get_if<ir::Conductor>(&material.kind)) {
-    return {m->f0 ? t.color(*m->f0, uv) : Rgb(1, 1, 1), {}, 0};
+    return {m->f0 ? t.color(*m->f0, at) : Rgb(1, 1, 1), {}, 0};
   }
   const auto& mix = std::get<ir::Mix>(material.kind);
-  const double w = t.number(mix.weight, uv);
-  const PhongTerms a = phong_terms(scene, mix.a, uv);
-  const PhongTerms b = phong_terms(scene, mix.b, uv);
+  const double w = t.number(mix.weight, at);
+  const PhongTerms a = phong_terms(scene, mix.a, at);
+  const PhongTerms b = phong_terms(scene, mix.b, at);
   return {a.diffuse * (1 - w) + b.diffuse * w, a.specular * (1 - w) + b.specular * w,
           a.shininess * (1 - w) + b.shininess * w};
 }

@@ -5,8 +5,10 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
+#include "backend/cameras/pixel_cone.hpp"
 #include "backend/film/film.hpp"
 #include "backend/integrators/kernel_set.hpp"
 #include "backend/integrators/media.hpp"
@@ -36,6 +38,7 @@ struct TraceJob {
   EffectMask effects = 0;  // simulated
   HitDetail detail = HitDetail::texture;
   bool wants_first_hit = true;
+  PixelCone cone;  // a point where no texture asks for more
 };
 
 template <EffectMask compiled>
@@ -82,8 +85,15 @@ class Tracer {
     return scene_.accel.occluded(ray, HitFilter(keep));
   }
 
-  [[nodiscard]] Sample2 texture_place(const Hit& hit) const {
-    return with<ir::Effect::textures>() ? Sample2{hit.u, hit.v} : Sample2{0.5, 0.5};
+  [[nodiscard]] TexturePlace texture_place(const Hit& hit) const {
+    return with<ir::Effect::textures>() ? texture_place_of(hit) : TexturePlace(0.5, 0.5);
+  }
+  // Sets how wide the pixel's cone is at a hit, `length` of path from the camera.
+  void widen(Hit& hit, const Vector3& direction, double length) const {
+    if (job_.cone.is_point()) [[likely]]
+      return;
+    const double cosine = std::fabs(dot(hit.geometric_normal, direction));
+    hit.width = job_.cone.width_at(length) / larger(cosine, PixelCone::least_cosine);
   }
 
   // Radiance that a hit gives off to where the ray came from, light shapes included.
@@ -199,6 +209,7 @@ class Tracer {
 struct Branch {
   Ray ray;
   Rgb throughput{1, 1, 1};
+  double length = 0;  // from the camera
   std::uint32_t depth = 0;
   MediumStack media;
 };

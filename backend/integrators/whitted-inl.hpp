@@ -56,6 +56,8 @@ class WhittedTracer {
       out_.radiance += branch.throughput * tracer_.escaped(branch.ray.direction, branch.depth == 0);
       return false;
     }
+    branch.length += hit.t;
+    tracer_.widen(hit, branch.ray.direction, branch.length);
     if (branch.depth == 0) out_.covered = true;
     if (!branch.media.empty()) branch.throughput *= transmittance(tracer_, branch.media, hit.t);
     const Vector3 to_viewer = -branch.ray.direction;

@@ -18,14 +18,14 @@ struct Part {
   double ior;
 };
 
-Part choose_part(const RenderScene& scene, ir::MaterialId id, Sample2 uv, double u) {
+Part choose_part(const RenderScene& scene, ir::MaterialId id, const TexturePlace& at, double u) {
   ir::TextureId normal_map;
   for (;;) {
     const ir::Material& material = scene.scene->materials[id];
     if (material.common.normal_map.valid()) normal_map = material.common.normal_map;
     const auto* mix = std::get_if<ir::Mix>(&material.kind);
     if (mix == nullptr) return {&material, normal_map, scene.materials[id.value()].ior};
-    const double weight = scene.textures.number(mix->weight, uv);
+    const double weight = scene.textures.number(mix->weight, at);
     // What is left of u within the chosen part is uniform again, for mixes of mixes.
     if (u < weight) {
       id = mix->b;
@@ -38,7 +38,7 @@ Part choose_part(const RenderScene& scene, ir::MaterialId id, Sample2 uv, double
 }
 
 UnitVector3 mapped_normal(const RenderScene& scene, const Hit& hit, ir::TextureId map) {
-  const Rgb c = scene.textures.value(map, {hit.u, hit.v}, TextureUse::data).color;
+  const Rgb c = scene.textures.value(map, texture_place_of(hit), TextureUse::data).color;
   const Frame frame = frame_about(hit.shading_normal, hit.dp_du);
   return frame.world_of(normalized(Vector3{2 * c.r - 1, 2 * c.g - 1, 2 * c.b - 1}));
 }
@@ -53,15 +53,23 @@ void leave_out_rough_lobes(Bsdf& b) {
 
 struct InputsAt {
   const TextureEvaluator& textures;
-  Sample2 uv;
+  const TexturePlace& at;
 
-  [[nodiscard]] Rgb color(const ir::ColorInput& input) const { return textures.color(input, uv); }
+  [[nodiscard]] Rgb color(const ir::ColorInput& input) const { return textures.color(input, at); }
   [[nodiscard]] double number(const ir::NumberInput& input) const {
-    return textures.number(input, uv);
+    return textures.number(input, at);
   }
 };
 
 }  // namespace
+
+TexturePlace texture_place_of(const Hit& hit) {
+  TexturePlace at(hit.u, hit.v);
+  if (!(hit.width > 0)) return at;
+  at.width_u = hit.width / length(hit.dp_du);
+  at.width_v = hit.width / length(hit.dp_dv);
+  return at;
+}
 
 UnitVector3 valid_normal(const UnitVector3& shading, const UnitVector3& geometric,
                          const Vector3& to_viewer) {
@@ -83,8 +91,8 @@ Bsdf resolve_bsdf(const RenderScene& scene, ir::MaterialId id, const Hit& hit,
   UnitVector3 shading = hit.shading_normal;
   double ior = prepared.ior;
   if (prepared.use == PreparedMaterial::Use::varied) {
-    const Part part = choose_part(scene, id, options.uv, options.mix);
-    InputsAt inputs{scene.textures, options.uv};
+    const Part part = choose_part(scene, id, options.at, options.mix);
+    InputsAt inputs{scene.textures, options.at};
     fill_bsdf(part.material->kind, inputs, b);
     ior = part.ior;
     if (options.normal_maps && part.normal_map.valid())
@@ -103,29 +111,29 @@ Bsdf resolve_bsdf(const RenderScene& scene, ir::MaterialId id, const Hit& hit,
   return b;
 }
 
-Rgb emission_of(const RenderScene& scene, ir::MaterialId id, Sample2 uv, bool outside) {
+Rgb emission_of(const RenderScene& scene, ir::MaterialId id, const TexturePlace& at, bool outside) {
   if (!scene.facts.emissive(id)) return {};
   const ir::Material& material = scene.scene->materials[id];
   Rgb sum;
   if (outside || material.common.two_sided)
-    sum = scene.textures.color(material.common.emission, uv);
+    sum = scene.textures.color(material.common.emission, at);
   if (const auto* mix = std::get_if<ir::Mix>(&material.kind)) {
-    const double weight = scene.textures.number(mix->weight, uv);
-    sum += emission_of(scene, mix->a, uv, outside) * (1 - weight) +
-           emission_of(scene, mix->b, uv, outside) * weight;
+    const double weight = scene.textures.number(mix->weight, at);
+    sum += emission_of(scene, mix->a, at, outside) * (1 - weight) +
+           emission_of(scene, mix->b, at, outside) * weight;
   }
   return sum;
 }
 
-double opacity_of(const RenderScene& scene, ir::MaterialId id, Sample2 uv) {
+double opacity_of(const RenderScene& scene, ir::MaterialId id, const TexturePlace& at) {
   if (!scene.facts.transparent(id)) return 1;
   const ir::Material& material = scene.scene->materials[id];
-  double opacity = scene.textures.number(material.common.opacity, uv);
+  double opacity = scene.textures.number(material.common.opacity, at);
   if (material.common.cutout) opacity = opacity < *material.common.cutout ? 0 : 1;
   if (const auto* mix = std::get_if<ir::Mix>(&material.kind)) {
-    const double weight = scene.textures.number(mix->weight, uv);
+    const double weight = scene.textures.number(mix->weight, at);
     opacity *=
-        opacity_of(scene, mix->a, uv) * (1 - weight) + opacity_of(scene, mix->b, uv) * weight;
+        opacity_of(scene, mix->a, at) * (1 - weight) + opacity_of(scene, mix->b, at) * weight;
   }
   return opacity;
 }

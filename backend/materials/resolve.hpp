@@ -32,9 +32,12 @@ struct TurnedNormals {
   return n;
 }
 
+// Where textures are read at a hit. A place without extent in u or v (a pole) has no end there.
+[[nodiscard]] TexturePlace texture_place_of(const Hit& hit);
+
 // How a material is to be looked at.
 struct ResolveOptions {
-  Sample2 uv;
+  TexturePlace at;
   double mix = 0;  // chooses between the parts of mixes
   bool normal_maps = true;
   bool rough_lobes = true;
@@ -46,10 +49,11 @@ struct ResolveOptions {
                                 const Vector3& to_viewer, const ResolveOptions& options);
 
 // Radiance given off towards a side; `outside`: the side the outward normal faces.
-[[nodiscard]] Rgb emission_of(const RenderScene& scene, ir::MaterialId material, Sample2 uv,
-                              bool outside);
+[[nodiscard]] Rgb emission_of(const RenderScene& scene, ir::MaterialId material,
+                              const TexturePlace& at, bool outside);
 // The probability that a ray is stopped: 0 or 1 with a cutout.
-[[nodiscard]] double opacity_of(const RenderScene& scene, ir::MaterialId material, Sample2 uv);
+[[nodiscard]] double opacity_of(const RenderScene& scene, ir::MaterialId material,
+                                const TexturePlace& at);
 
 // Absorption coefficient of the body a material bounds.
 [[nodiscard]] Rgb absorption_of(const RenderScene& scene, ir::MaterialId material);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "backend/math/rng.hpp"
+#include "backend/textures/pyramid.hpp"
 
 namespace scenec::backend {
 namespace {
@@ -78,6 +79,13 @@ Rgb single_channel(const TextureValue& value, ir::Channel channel) {
   return {};
 }
 
+// Whether whole numbers are to be decoded.
+bool has_curve(const ir::ImageTexture& texture, const DecodedImage& image, TextureUse use) {
+  const bool eight_bits = image.encoding == SampleEncoding::srgb;
+  return texture.encoding == ir::Encoding::srgb ||
+         (texture.encoding == ir::Encoding::automatic && eight_bits && use == TextureUse::color);
+}
+
 }  // namespace
 
 double gradient_noise(double x, double y) {
@@ -102,32 +110,54 @@ double gradient_noise(double x, double y) {
   return std::clamp((low * (1 - v) + high * v) * 1.41421356237309504880, -1.0, 1.0);
 }
 
-TextureValue TextureEvaluator::image(const ir::ImageTexture& texture, Sample2 uv,
+TextureEvaluator::TextureEvaluator(const ir::Scene& scene,
+                                   const std::vector<std::shared_ptr<const DecodedImage>>& images)
+    : scene_(&scene), images_(&images) {
+  for (const ir::TextureNode& node : scene.textures) {
+    const auto* texture = std::get_if<ir::ImageTexture>(&node.kind);
+    if (texture == nullptr || texture->filter != ir::TextureFilter::trilinear) continue;
+    const auto& decoded = images[texture->file.value()];
+    if (!decoded) continue;
+    Pyramids& pyramids = pyramids_[texture->file];
+    for (const TextureUse use : {TextureUse::color, TextureUse::data}) {
+      const bool srgb = has_curve(*texture, *decoded, use);
+      auto& slot = srgb ? pyramids.srgb : pyramids.linear;
+      if (!slot) slot = std::make_unique<const Pyramid>(*decoded, srgb);
+    }
+  }
+}
+TextureEvaluator::~TextureEvaluator() = default;
+
+TextureValue TextureEvaluator::image(const ir::ImageTexture& texture, const TexturePlace& at,
                                      TextureUse use) const {
   const auto& decoded = (*images_)[texture.file.value()];
   if (!decoded) return {};
-  const bool eight_bits = decoded->encoding == SampleEncoding::srgb;
-  const bool srgb =
-      texture.encoding == ir::Encoding::srgb ||
-      (texture.encoding == ir::Encoding::automatic && eight_bits && use == TextureUse::color);
-  return lookup(*decoded, {uv.u * texture.scale.x, uv.v * texture.scale.y}, texture.wrap,
-                texture.filter, srgb);
+  const bool srgb = has_curve(texture, *decoded, use);
+  TexturePlace scaled(at.uv.u * texture.scale.x, at.uv.v * texture.scale.y);
+  if (texture.filter != ir::TextureFilter::trilinear)
+    return lookup(*decoded, scaled.uv, texture.wrap, texture.filter, srgb);
+  scaled.width_u = at.width_u * std::fabs(texture.scale.x);
+  scaled.width_v = at.width_v * std::fabs(texture.scale.y);
+  const Pyramids& pyramids = pyramids_.at(texture.file);
+  return (srgb ? pyramids.srgb : pyramids.linear)->lookup(*decoded, scaled, texture.wrap);
 }
 
-TextureValue TextureEvaluator::value(ir::TextureId id, Sample2 uv, TextureUse use) const {
+TextureValue TextureEvaluator::value(ir::TextureId id, const TexturePlace& at,
+                                     TextureUse use) const {
+  const Sample2 uv = at.uv;
   const ir::TextureKind& kind = scene_->textures[id].kind;
   const auto of = [&](const ir::ColorInput& input) {
-    return input.texture.valid() ? value(input.texture, uv, use).color
+    return input.texture.valid() ? value(input.texture, at, use).color
                                  : Rgb(input.value.r, input.value.g, input.value.b);
   };
-  if (const auto* t = std::get_if<ir::ImageTexture>(&kind)) return image(*t, uv, use);
+  if (const auto* t = std::get_if<ir::ImageTexture>(&kind)) return image(*t, at, use);
   if (const auto* t = std::get_if<ir::CheckerTexture>(&kind)) {
     return {of(odd_cell(std::floor(uv.u * t->scale) + std::floor(uv.v * t->scale)) ? t->b : t->a),
             1};
   }
   if (const auto* t = std::get_if<ir::FractalTexture>(&kind))
     return mixed(of(t->a), of(t->b), fractal(*t, uv));
-  if (const auto* t = std::get_if<ir::RampTexture>(&kind)) return ramp(*t, number(t->t, uv));
+  if (const auto* t = std::get_if<ir::RampTexture>(&kind)) return ramp(*t, number(t->t, at));
   if (const auto* t = std::get_if<ir::GridTexture>(&kind)) {
     const auto on_line = [&](double x) {
       const double f = cell_fraction(x * t->scale);
@@ -139,9 +169,9 @@ TextureValue TextureEvaluator::value(ir::TextureId id, Sample2 uv, TextureUse us
     return {{t->color.r, t->color.g, t->color.b}, 1};
   if (const auto* t = std::get_if<ir::ProductTexture>(&kind)) return {of(t->a) * of(t->b), 1};
   if (const auto* t = std::get_if<ir::MixTexture>(&kind))
-    return mixed(of(t->a), of(t->b), number(t->t, uv));
+    return mixed(of(t->a), of(t->b), number(t->t, at));
   const auto& channel = std::get<ir::ChannelTexture>(kind);
-  return {single_channel(value(channel.source, uv, TextureUse::data), channel.channel), 1};
+  return {single_channel(value(channel.source, at, TextureUse::data), channel.channel), 1};
 }
 
 }  // namespace scenec::backend
