@@ -2,6 +2,7 @@
 #include <map>
 #include <utility>
 
+#include "backend/accel/quick_mesh.hpp"
 #include "backend/accel/tree_codec.hpp"
 #include "backend/accel/tree_store.hpp"
 #include "backend/build.hpp"
@@ -143,17 +144,24 @@ class ItemAdder {
   std::shared_ptr<const MeshAccel> made_accel(const std::shared_ptr<const TriangleMesh>& mesh,
                                               const Hash128& mesh_key) {
     ContentCache* const cache = options_.cache;
-    if (cache == nullptr || mesh_key == Hash128{})
-      return std::make_shared<const MeshAccel>(mesh, pool_, options_.precision);
+    if (cache == nullptr || mesh_key == Hash128{}) return built_accel(mesh).accel;
     const Hash128 key = tree_key(mesh_key, options_.precision);
     if (const auto entry = cache->find(key)) {
       if (auto accel = decode_tree(entry->bytes, mesh)) return accel;
       cache->refuse();
     }
-    auto accel = std::make_shared<const MeshAccel>(mesh, pool_, options_.precision);
-    const EncodedTree encoded(*accel, *mesh);
-    cache->store(key, encoded.pieces());
-    return accel;
+    QuickMesh built = built_accel(mesh);
+    // Others who find a tree there want the one that was worth its time.
+    if (built.is_final) {
+      const EncodedTree encoded(*built.accel, *mesh);
+      cache->store(key, encoded.pieces());
+    }
+    return std::move(built.accel);
+  }
+  // Whoever builds the same scene again and again waits for each of them.
+  QuickMesh built_accel(const std::shared_ptr<const TriangleMesh>& mesh) {
+    if (options_.trees != nullptr) return build_quickly(mesh, pool_, options_.precision);
+    return {.accel = std::make_shared<const MeshAccel>(mesh, pool_, options_.precision)};
   }
   std::shared_ptr<const Revolve> revolve_accel(Id<ir::Revolve> id) {
     auto& slot = revolves_[id];

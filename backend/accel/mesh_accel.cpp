@@ -4,9 +4,12 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "backend/accel/chunks.hpp"
+#include "backend/accel/quick_mesh.hpp"
 #include "backend/accel/tree_build.hpp"
 
 namespace scenec::backend {
@@ -250,19 +253,52 @@ class TriangleSplitter final : public RefSplitter {
   const Vertices& vertices_;
 };
 
+// How much time a tree is worth.
+enum class Effort : std::uint8_t { full, quick };
+
+// A mesh as it is traced, and its tree.
+struct Traced {
+  std::shared_ptr<const TriangleMesh> mesh;
+  MeshTree mesh_tree{};
+  bool is_final = true;
+};
+
 template <class T, class Vertices>
-void build_mesh_tree(const TriangleMesh& mesh, const Vertices& vertices, ThreadPool& pool,
-                     WideTree& tree, HugeVector<TriangleBlock<T>>& blocks) {
+void build_mesh_tree(const Vertices& vertices, ThreadPool& pool, Effort effort, Traced& out,
+                     HugeVector<TriangleBlock<T>>& blocks) {
+  const TriangleMesh& mesh = *out.mesh;
   BuildSettings settings;
   settings.block_width = TriangleBlock<T>::width;
   settings.node_cost = node_cost;
   const TriangleSplitter<Vertices> splitter(mesh, vertices);
   settings.splitter = &splitter;
+  settings.splits = effort == Effort::full ? Splits::where_they_pay : Splits::never;
   BuiltTree built = build_tree(refs_of(mesh, vertices, pool), settings, pool);
+  out.is_final = !built.splits_would_pay;
+  WideTree& tree = out.mesh_tree.tree;
   tree.root = built.root;
   tree.empty = built.empty;
   tree.nodes = std::move(built.nodes);
   fill_blocks(mesh, built.ids, vertices, pool, blocks);
+}
+
+Traced traced(std::shared_ptr<const TriangleMesh> mesh, ThreadPool& pool, Precision precision,
+              Effort effort) {
+  Traced out{.mesh = std::move(mesh)};
+  WideTree& tree = out.mesh_tree.tree;
+  tree.space = space_of(bounds_of_positions(*out.mesh, pool));
+  std::optional<Snapping> snapping;
+  Snap snap = Snap::spoils;
+  if (precision == Precision::mixed) snap = snapping.emplace(*out.mesh, tree.space, pool).run();
+  if (snap == Snap::moves) out.mesh = snapping->moved_mesh();
+  if (snap != Snap::spoils) {
+    build_mesh_tree(FloatVertices{snapping->points()}, pool, effort, out, out.mesh_tree.blocks);
+  } else {
+    build_mesh_tree(DoubleVertices{*out.mesh, tree.space}, pool, effort, out,
+                    out.mesh_tree.full_blocks);
+  }
+  tree.bounds = bounds_of_positions(*out.mesh, pool);
+  return out;
 }
 
 }  // namespace
@@ -273,22 +309,17 @@ std::size_t MeshTree::bytes() const {
 }
 
 MeshAccel::MeshAccel(std::shared_ptr<const TriangleMesh> mesh, ThreadPool& pool,
-                     Precision precision)
-    : mesh_(std::move(mesh)) {
-  WideTree& tree = tree_.tree;
-  tree.space = space_of(bounds_of_positions(*mesh_, pool));
-  if (precision == Precision::mixed) {
-    Snapping snapping(*mesh_, tree.space, pool);
-    const Snap snap = snapping.run();
-    if (snap != Snap::spoils) {
-      if (snap == Snap::moves) mesh_ = snapping.moved_mesh();
-      build_mesh_tree(*mesh_, FloatVertices{snapping.points()}, pool, tree, tree_.blocks);
-      tree.bounds = bounds_of_positions(*mesh_, pool);
-      return;
-    }
-  }
-  build_mesh_tree(*mesh_, DoubleVertices{*mesh_, tree.space}, pool, tree, tree_.full_blocks);
-  tree.bounds = bounds_of_positions(*mesh_, pool);
+                     Precision precision) {
+  Traced made = traced(std::move(mesh), pool, precision, Effort::full);
+  mesh_ = std::move(made.mesh);
+  tree_ = std::move(made.mesh_tree);
+}
+
+QuickMesh build_quickly(std::shared_ptr<const TriangleMesh> mesh, ThreadPool& pool,
+                        Precision precision) {
+  Traced made = traced(std::move(mesh), pool, precision, Effort::quick);
+  return {std::make_shared<const MeshAccel>(std::move(made.mesh), std::move(made.mesh_tree)),
+          made.is_final};
 }
 
 }  // namespace scenec::backend

@@ -50,7 +50,9 @@ class Builder {
     const BuildRange whole = whole_range(refs_);
     build_top(whole);
     pool_.for_each(tasks_.size(), [&](std::size_t i, unsigned) { build_task(tasks_[i]); });
-    if (settings_.splitter != nullptr && splits_pay()) {
+    const bool splits = settings_.splitter != nullptr && splits_pay();
+    out.splits_would_pay = splits && settings_.splits == Splits::never;
+    if (splits && settings_.splits == Splits::where_they_pay) {
       top_.clear();
       tasks_.clear();
       root_area_ = whole.box.half_area();

@@ -62,11 +62,14 @@ class RefSplitter {
                      BuildRef& high) const = 0;
 };
 
+enum class Splits : std::uint8_t { where_they_pay, never };
+
 struct BuildSettings {
   std::uint32_t block_width = 1;
   std::uint32_t max_blocks = TreeRef::max_blocks;  // of a leaf
   float node_cost = 1;                             // of the tests of a node, in tests of a block
   const RefSplitter* splitter = nullptr;           // null: no spatial splits
+  Splits splits = Splits::where_they_pay;
   float extra_refs = 0.3F;  // that spatial splits may add, for each one given
 };
 
@@ -74,6 +77,7 @@ struct BuiltTree {
   static constexpr std::uint32_t no_id = 0xffffffff;
   TreeRef root;
   bool empty = true;
+  bool splits_would_pay = false;  // they were not to be made
   HugeVector<WideNode> nodes;
   // Numbers of the boxes a block at a time, `no_id` where a block is not full.
   std::vector<std::uint32_t> ids;

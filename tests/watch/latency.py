@@ -209,6 +209,7 @@ def main():
         print("|---|---|---|---|---|---|---|")
         meter = Meter(daemon, browser)
         cold_starts(daemon, browser, meter)
+        browser.get("about:blank")
         daemon.start()
         browser.get(daemon.url)
         meter.synchronise()

@@ -309,6 +309,16 @@ class Page(unittest.TestCase):
         red, _, blue = self.pixel()
         self.assertGreater(blue, red)
 
+    def test_the_address_of_another_daemon_is_taken_in_the_same_tab(self):
+        self.expects_problems = True
+        self.daemon.options = ("--port", str(self.daemon.port))
+        self.daemon.environment = {"XDG_RUNTIME_DIR": ""}
+        self.daemon.stop()
+        self.daemon.start()  # with another key
+        self.browser.get(self.daemon.url)
+        self.wait(lambda: "finished" in self.text("#status"), "the picture")
+        self.assertFalse(self.is_shown("#gate"))
+
     def test_a_hostile_page_gets_nothing(self):
         self.expects_problems = True
         target = f"http://127.0.0.1:{self.daemon.port}"

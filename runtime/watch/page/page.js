@@ -10,6 +10,14 @@ if (place.get('token')) {
   history.replaceState(null, '', location.pathname);
 }
 const token = sessionStorage.getItem('token') || '';
+// The address of a daemon started anew, put into the same tab, differs behind the `#` alone.
+window.addEventListener('hashchange', () => {
+  const given = new URLSearchParams(location.hash.slice(1)).get('token');
+  if (!given) return;
+  sessionStorage.setItem('token', given);
+  history.replaceState(null, '', location.pathname);
+  location.reload();
+});
 const scene_number = /^\/scene\/(\d+)$/.exec(location.pathname)?.[1] ?? null;
 
 export function element(name, attributes = {}, ...children) {
