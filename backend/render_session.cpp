@@ -84,6 +84,7 @@ bool RenderSession::advance(std::int64_t samples, const std::stop_token& stop,
   const SampleRange range{my.film.samples(), my.film.samples() + samples};
   std::atomic<std::size_t> done{0};
   std::atomic<bool> cut{false};
+  my.film.begin_round();
   const bool all = my.pool.for_each(
       tiles,
       [&](std::size_t number, unsigned worker) {

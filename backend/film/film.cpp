@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/packed_bytes.hpp"
-
 namespace scenec::backend {
 
 ir::Region region_of(const ir::RenderSettings& settings) {
@@ -31,9 +29,9 @@ Film::Pixel Film::open(std::size_t x, std::size_t y) {
   Pixel pixel;
   pixel.film_ = this;
   pixel.index_ = y * width_ + x;
-  pixel.sums_ = sums_.done[pixel.index_];
-  if (keeps_replicates()) pixel.replicates_ = replicates_.done[pixel.index_];
-  if (!extra_.done.empty()) extra_.next[pixel.index_] = extra_.done[pixel.index_];
+  pixel.sums_ = sums_.at(pixel.index_);
+  if (keeps_replicates()) pixel.replicates_ = replicates_.at(pixel.index_);
+  if (extra_.kept()) extra_.next[pixel.index_] = extra_.at(pixel.index_);
   return pixel;
 }
 
@@ -60,7 +58,7 @@ void Film::Pixel::add(std::int64_t number, const FilmSample& sample) {
     sums_.covered += sample.weight;
     sums_.hits += 1;
   }
-  if (sample.first.hit && !film_->extra_.next.empty())
+  if (sample.first.hit && film_->extra_.kept())
     film_->add_extra(film_->extra_.next[index_], sample);
 }
 
@@ -90,6 +88,12 @@ void Film::add_extra(Extra& extra, const FilmSample& sample) const {
   }
 }
 
+void Film::begin_round() {
+  sums_.open_next();
+  replicates_.open_next();
+  extra_.open_next();
+}
+
 void Film::finish_round(std::int64_t samples) {
   sums_.swap();
   replicates_.swap();
@@ -112,15 +116,15 @@ double divisor(std::int32_t weight, std::int32_t count) {
 }  // namespace
 
 Rgb Film::mean(std::size_t pixel) const {
-  const PixelSums& s = sums_.done[pixel];
+  const PixelSums& s = sums_.at(pixel);
   const double d = divisor(s.weight, s.count);
   return {s.rgb[0].value() / d, s.rgb[1].value() / d, s.rgb[2].value() / d};
 }
 
 std::optional<ReplicateMeans> Film::replicate_means(std::size_t pixel) const {
   if (!keeps_replicates()) return std::nullopt;
-  const PixelSums& sums = sums_.done[pixel];
-  const ReplicateSums& parts = replicates_.done[pixel];
+  const PixelSums& sums = sums_.at(pixel);
+  const ReplicateSums& parts = replicates_.at(pixel);
   ReplicateMeans means{};
   std::array<double, 3> rest{sums.rgb[0].value(), sums.rgb[1].value(), sums.rgb[2].value()};
   std::int32_t weight_left = sums.weight;
@@ -142,9 +146,9 @@ std::string Film::save() const {
   append_packed(out, samples_);
   append_packed(out, dropped_);
   append_packed(out, saturated_);
-  out += packed_bytes_of(sums_.done);
-  out += packed_bytes_of(replicates_.done);
-  out += packed_bytes_of(extra_.done);
+  sums_.pack(out);
+  replicates_.pack(out);
+  extra_.pack(out);
   return out;
 }
 
@@ -153,9 +157,9 @@ bool Film::restore(std::string_view bytes) {
   const auto samples = reader.value<std::int64_t>();
   const auto dropped = reader.value<std::uint64_t>();
   const auto saturated = reader.value<std::uint64_t>();
-  auto sums = reader.list<std::vector<PixelSums>>(sums_.done.size());
-  auto replicates = reader.list<std::vector<ReplicateSums>>(replicates_.done.size());
-  auto extra = reader.list<std::vector<Extra>>(extra_.done.size());
+  auto sums = reader.list<std::vector<PixelSums>>(sums_.size());
+  auto replicates = reader.list<std::vector<ReplicateSums>>(replicates_.size());
+  auto extra = reader.list<std::vector<Extra>>(extra_.size());
   if (!reader.at_end() || samples < 0) return false;
   drop_round();
   samples_ = samples;
@@ -168,14 +172,14 @@ bool Film::restore(std::string_view bytes) {
 }
 
 Picture Film::picture() const {
-  const std::size_t pixels = sums_.done.size();
+  const std::size_t pixels = sums_.size();
   Picture picture;
   picture.width = static_cast<int>(width_);
   picture.height = static_cast<int>(height_);
   picture.rgb.resize(3 * pixels);
   picture.alpha.resize(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
-    const PixelSums& s = sums_.done[i];
+    const PixelSums& s = sums_.at(i);
     const double d = divisor(s.weight, s.count);
     for (std::size_t c = 0; c < 3; ++c)
       picture.rgb[3 * i + c] = static_cast<float>(s.rgb[c].value() / d);

@@ -18,6 +18,7 @@
 #include "backend/film/replicates.hpp"
 #include "backend/math/color.hpp"
 #include "backend/math/vec.hpp"
+#include "base/packed_bytes.hpp"
 #include "base/parallel.hpp"
 #include "ir/render_settings.hpp"
 
@@ -79,6 +80,8 @@ class Film {
     PixelSums sums_;
     ReplicateSums replicates_;
   };
+  // Before the first pixel of a round.
+  void begin_round();
   // Of the region, from its top left. Once a round for every pixel.
   [[nodiscard]] Pixel open(std::size_t x, std::size_t y);
   // Puts the samples added since the last call (a finished round) among those that count.
@@ -104,13 +107,28 @@ class Film {
   };
   // Sums of finished rounds, and the same with what the running round added: a worker takes a pixel
   // from `done` and puts it into `next`; a finished round swaps the two, a stopped one swaps
-  // nothing.
+  // nothing. Neither is there before it is needed: a picture of one round takes one of them.
   template <class T>
   struct Buffers {
     std::vector<T> done, next;
-    void resize(std::size_t size) {
-      done.resize(size);
-      next.resize(size);
+    std::size_t pixels = 0;
+
+    void resize(std::size_t size) { pixels = size; }
+    [[nodiscard]] std::size_t size() const { return pixels; }
+    [[nodiscard]] bool kept() const { return pixels > 0; }
+    // Of the finished rounds.
+    [[nodiscard]] const T& at(std::size_t i) const {
+      static const T nothing{};
+      return done.empty() ? nothing : done[i];
+    }
+    void pack(std::string& out) const {
+      if (done.empty())
+        out += packed_bytes_of(std::vector<T>(pixels));
+      else
+        out += packed_bytes_of(done);
+    }
+    void open_next() {
+      if (next.size() != pixels) next.resize(pixels);
     }
     void swap() { done.swap(next); }
   };
@@ -118,7 +136,7 @@ class Film {
     std::atomic<std::uint64_t> dropped{0};    // not finite
     std::atomic<std::uint64_t> saturated{0};  // beyond what a sum holds
   };
-  [[nodiscard]] bool keeps_replicates() const { return !replicates_.done.empty(); }
+  [[nodiscard]] bool keeps_replicates() const { return replicates_.kept(); }
   void add_extra(Extra& extra, const FilmSample& sample) const;
   void append_layers(Picture& picture) const;
 

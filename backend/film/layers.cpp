@@ -18,47 +18,44 @@ void append(Picture& picture, const char* name, std::size_t pixels, const F& val
 }  // namespace
 
 void Film::append_layers(Picture& picture) const {
-  const std::size_t n = sums_.done.size();
+  const std::size_t n = sums_.size();
   const auto mean = [&](const FixedSum& sum, std::size_t i) {
-    return sum.value() / std::max(1, sums_.done[i].hits);
+    return sum.value() / std::max(1, sums_.at(i).hits);
   };
   for (const ir::Aov aov : settings_.aovs) {
     switch (aov) {
       case ir::Aov::albedo:
         append(picture, "albedo.R", n,
-               [&](std::size_t i) { return mean(extra_.done[i].albedo[0], i); });
+               [&](std::size_t i) { return mean(extra_.at(i).albedo[0], i); });
         append(picture, "albedo.G", n,
-               [&](std::size_t i) { return mean(extra_.done[i].albedo[1], i); });
+               [&](std::size_t i) { return mean(extra_.at(i).albedo[1], i); });
         append(picture, "albedo.B", n,
-               [&](std::size_t i) { return mean(extra_.done[i].albedo[2], i); });
+               [&](std::size_t i) { return mean(extra_.at(i).albedo[2], i); });
         break;
       case ir::Aov::normal:
-        append(picture, "N.X", n, [&](std::size_t i) { return mean(extra_.done[i].normal[0], i); });
-        append(picture, "N.Y", n, [&](std::size_t i) { return mean(extra_.done[i].normal[1], i); });
-        append(picture, "N.Z", n, [&](std::size_t i) { return mean(extra_.done[i].normal[2], i); });
+        append(picture, "N.X", n, [&](std::size_t i) { return mean(extra_.at(i).normal[0], i); });
+        append(picture, "N.Y", n, [&](std::size_t i) { return mean(extra_.at(i).normal[1], i); });
+        append(picture, "N.Z", n, [&](std::size_t i) { return mean(extra_.at(i).normal[2], i); });
         break;
       case ir::Aov::position:
-        append(picture, "P.X", n,
-               [&](std::size_t i) { return mean(extra_.done[i].position[0], i); });
-        append(picture, "P.Y", n,
-               [&](std::size_t i) { return mean(extra_.done[i].position[1], i); });
-        append(picture, "P.Z", n,
-               [&](std::size_t i) { return mean(extra_.done[i].position[2], i); });
+        append(picture, "P.X", n, [&](std::size_t i) { return mean(extra_.at(i).position[0], i); });
+        append(picture, "P.Y", n, [&](std::size_t i) { return mean(extra_.at(i).position[1], i); });
+        append(picture, "P.Z", n, [&](std::size_t i) { return mean(extra_.at(i).position[2], i); });
         break;
       case ir::Aov::depth:
-        append(picture, "Z", n, [&](std::size_t i) { return mean(extra_.done[i].depth, i); });
+        append(picture, "Z", n, [&](std::size_t i) { return mean(extra_.at(i).depth, i); });
         break;
       case ir::Aov::uv:
-        append(picture, "UV.X", n, [&](std::size_t i) { return mean(extra_.done[i].uv[0], i); });
-        append(picture, "UV.Y", n, [&](std::size_t i) { return mean(extra_.done[i].uv[1], i); });
+        append(picture, "UV.X", n, [&](std::size_t i) { return mean(extra_.at(i).uv[0], i); });
+        append(picture, "UV.Y", n, [&](std::size_t i) { return mean(extra_.at(i).uv[1], i); });
         break;
       case ir::Aov::ids:
         // 0 is nothing, so numbers start at 1.
         append(picture, "id.item", n, [&](std::size_t i) {
-          return extra_.done[i].identified ? extra_.done[i].item + 1.0 : 0.0;
+          return extra_.at(i).identified ? extra_.at(i).item + 1.0 : 0.0;
         });
         append(picture, "id.material", n, [&](std::size_t i) {
-          return extra_.done[i].identified ? extra_.done[i].material + 1.0 : 0.0;
+          return extra_.at(i).identified ? extra_.at(i).material + 1.0 : 0.0;
         });
         break;
       case ir::Aov::variance: {
@@ -73,7 +70,7 @@ void Film::append_layers(Picture& picture) const {
       }
       case ir::Aov::samples:
         append(picture, "samples.Y", n,
-               [&](std::size_t i) { return static_cast<double>(sums_.done[i].count); });
+               [&](std::size_t i) { return static_cast<double>(sums_.at(i).count); });
         break;
       case ir::Aov::trust:
         break;  // how far a pixel can be trusted needs two estimates; this renderer makes one

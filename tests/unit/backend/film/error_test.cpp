@@ -21,6 +21,7 @@ std::unique_ptr<Film> noisy_film(std::int64_t side, int samples, double deviatio
   auto film = std::make_unique<Film>(square(side));
   std::mt19937_64 random(seed);
   std::normal_distribution<double> noise(1, deviation);
+  film->begin_round();
   for (std::size_t y = 0; y < static_cast<std::size_t>(side); ++y) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(side); ++x) {
       Film::Pixel pixel = film->open(x, y);

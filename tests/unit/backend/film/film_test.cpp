@@ -63,6 +63,7 @@ FilmSample sample_of(double radiance, int weight = 1) {
 
 void give(Film& film, std::size_t x, std::size_t y, std::int64_t first,
           std::initializer_list<FilmSample> samples) {
+  film.begin_round();
   Film::Pixel pixel = film.open(x, y);
   for (const FilmSample& sample : samples) pixel.add(first++, sample);
   pixel.close();
@@ -74,6 +75,7 @@ TEST(film, sixty_four_samples_are_twice_thirty_two) {  // D02
   Film whole(settings);
   Film halves(settings);
   const auto add = [](Film& film, std::int64_t first, std::int64_t end) {
+    film.begin_round();
     for (std::size_t x = 0; x < 3; ++x) {
       Film::Pixel pixel = film.open(x, 1);
       for (std::int64_t s = first; s < end; ++s)
@@ -157,6 +159,7 @@ TEST_P(Filters, keep_a_constant_exact) {  // C07
   settings.size = {1, 1};
   const FilterSampler sampler({GetParam(), ir::usual_radius(GetParam())});
   Film film(settings);
+  film.begin_round();
   Film::Pixel pixel = film.open(0, 0);
   for (std::uint64_t s = 0; s < 64; ++s) {
     const FilterSample offset = sampler.sample({random_unit(2, 0, s, 0), random_unit(2, 0, s, 1)});
