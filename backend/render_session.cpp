@@ -7,11 +7,14 @@
 #include "backend/film/error.hpp"
 #include "backend/film/film.hpp"
 #include "backend/integrators/kernel.hpp"
+#include "base/packed_bytes.hpp"
 
 namespace scenec::backend {
 namespace {
 
 constexpr std::size_t tile_side = 16;
+// Smaller where a tile is what gets more or fewer samples.
+constexpr std::size_t adaptive_tile_side = 8;
 // Fewer say next to nothing.
 constexpr std::int64_t samples_before_estimate = 2 * replicate_count;
 
@@ -38,7 +41,7 @@ ir::RenderSettings coarse_settings(ir::RenderSettings settings, std::int64_t ste
 struct RenderSession::Impl {
   Impl(const RenderScene& of_scene, const ir::RenderSettings& with_settings,
        const ir::EffectSet& with_effects, ThreadPool& on_pool, KernelChoice choice,
-       const ir::Camera* camera)
+       const ir::Camera* camera, SampleSpread with_spread)
       : scene(of_scene),
         settings(with_settings),
         effects(with_effects),
@@ -46,15 +49,43 @@ struct RenderSession::Impl {
         kernel(scene, settings, effects, choice, camera),
         film(settings),
         workers(pool.size()),
-        tiles_x((film.region_width() + tile_side - 1) / tile_side),
-        tiles_y((film.region_height() + tile_side - 1) / tile_side) {}
+        side(with_spread == SampleSpread::adaptive ? adaptive_tile_side : tile_side),
+        tiles_x((film.region_width() + side - 1) / side),
+        tiles_y((film.region_height() + side - 1) / side) {
+    if (with_spread == SampleSpread::even) return;
+    std::vector<std::int64_t> pixels(tiles());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const Tile t = tile(i);
+      pixels[i] = static_cast<std::int64_t>((t.x1 - t.x0) * (t.y1 - t.y0));
+    }
+    plan.emplace(std::move(pixels), tiles_x);
+  }
 
   [[nodiscard]] Tile tile(std::size_t number) const {
-    const std::size_t x0 = number % tiles_x * tile_side;
-    const std::size_t y0 = number / tiles_x * tile_side;
-    return {x0, y0, std::min(x0 + tile_side, film.region_width()),
-            std::min(y0 + tile_side, film.region_height())};
+    const std::size_t x0 = number % tiles_x * side;
+    const std::size_t y0 = number / tiles_x * side;
+    return {x0, y0, std::min(x0 + side, film.region_width()),
+            std::min(y0 + side, film.region_height())};
   }
+  [[nodiscard]] std::size_t tiles() const { return tiles_x * tiles_y; }
+
+  // Numbers of the samples of a tile that take the picture from one mean number to another.
+  [[nodiscard]] SampleRange range(std::size_t number, std::int64_t first, std::int64_t end) const {
+    if (!plan) return {first, end};
+    return {plan->count(number, first), plan->count(number, end)};
+  }
+  void begin_stage() {
+    const std::vector<double> pixels = squared_errors_of(film, pool);
+    std::vector<double> sums(pixels.empty() ? 0 : tiles());
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const Tile t = tile(i);
+      for (std::size_t y = t.y0; y < t.y1; ++y)
+        for (std::size_t x = t.x0; x < t.x1; ++x) sums[i] += pixels[y * film.region_width() + x];
+    }
+    plan->next_stage(sums);
+  }
+  bool render_round(std::int64_t samples, const std::stop_token& stop,
+                    const std::function<void(double)>& part_done);
 
   const RenderScene& scene;
   const ir::RenderSettings settings;
@@ -63,44 +94,65 @@ struct RenderSession::Impl {
   TileKernel kernel;
   Film film;
   std::vector<KernelWorker> workers;
+  std::size_t side;
   std::size_t tiles_x;
   std::size_t tiles_y;
+  std::optional<SamplePlan> plan;  // none: every pixel gets the same
 };
 
 RenderSession::RenderSession(const RenderScene& scene, const ir::RenderSettings& settings,
                              const ir::EffectSet& effects, ThreadPool& pool, KernelChoice kernel,
-                             const ir::Camera* camera) {
+                             const ir::Camera* camera, SampleSpread spread) {
   SCENEC_ASSERT(settings.camera.valid());
-  impl_ = std::make_unique<Impl>(scene, settings, effects, pool, kernel, camera);
+  impl_ = std::make_unique<Impl>(scene, settings, effects, pool, kernel, camera, spread);
 }
 RenderSession::~RenderSession() = default;
 RenderSession::RenderSession(RenderSession&&) noexcept = default;
 RenderSession& RenderSession::operator=(RenderSession&&) noexcept = default;
 
-bool RenderSession::advance(std::int64_t samples, const std::stop_token& stop,
-                            const PartFunction& part_done) {
-  Impl& my = *impl_;
-  const std::size_t tiles = my.tiles_x * my.tiles_y;
-  const SampleRange range{my.film.samples(), my.film.samples() + samples};
+bool RenderSession::Impl::render_round(std::int64_t samples, const std::stop_token& stop,
+                                       const std::function<void(double)>& part_done) {
+  const std::int64_t first = film.samples();
   std::atomic<std::size_t> done{0};
   std::atomic<bool> cut{false};
-  my.film.begin_round();
-  const bool all = my.pool.for_each(
-      tiles,
+  film.begin_round();
+  const bool all = pool.for_each(
+      tiles(),
       [&](std::size_t number, unsigned worker) {
-        if (!my.kernel.render(my.film, my.tile(number), range, my.workers[worker], stop)) {
+        if (!kernel.render(film, tile(number), range(number, first, first + samples),
+                           workers[worker], stop)) {
           cut.store(true, std::memory_order_relaxed);
           return;
         }
         const std::size_t finished = done.fetch_add(1, std::memory_order_relaxed) + 1;
-        if (part_done) part_done(static_cast<double>(finished) / static_cast<double>(tiles));
+        part_done(static_cast<double>(finished) / static_cast<double>(tiles()));
       },
       stop);
   if (!all || cut.load()) {
-    my.film.drop_round();
+    film.drop_round();
     return false;
   }
-  my.film.finish_round(samples);
+  film.finish_round(samples);
+  return true;
+}
+
+bool RenderSession::advance(std::int64_t samples, const std::stop_token& stop,
+                            const PartFunction& part_done) {
+  Impl& my = *impl_;
+  const std::int64_t first = my.film.samples();
+  const std::int64_t end = first + samples;
+  // A stage of the plan ends a round.
+  while (my.film.samples() < end) {
+    if (my.plan && my.film.samples() == my.plan->stage_end()) my.begin_stage();
+    const std::int64_t now = my.film.samples();
+    const std::int64_t until = my.plan ? std::min(end, my.plan->stage_end()) : end;
+    const auto told = [&](double part) {
+      if (!part_done) return;
+      const double at = static_cast<double>(now - first) + part * static_cast<double>(until - now);
+      part_done(at / static_cast<double>(samples));
+    };
+    if (!my.render_round(until - now, stop, told)) return false;
+  }
   return true;
 }
 
@@ -131,11 +183,25 @@ std::uint64_t RenderSession::rays() const {
 }
 
 std::string RenderSession::save() const {
-  return impl_->film.save();
+  std::string sums = impl_->film.save();
+  if (!impl_->plan) return sums;
+  std::string bytes;
+  append_packed(bytes, static_cast<std::uint64_t>(sums.size()));
+  return bytes + sums + impl_->plan->save();
 }
 
 bool RenderSession::restore(std::string_view bytes) {
-  return impl_->film.restore(bytes);
+  Impl& my = *impl_;
+  if (!my.plan) return my.film.restore(bytes);
+  PackedReader reader(bytes);
+  const auto size = reader.value<std::uint64_t>();
+  const std::string_view sums = reader.take(size);
+  if (!reader.ok()) return false;
+  SamplePlan plan = *my.plan;
+  if (!plan.restore(bytes.substr(sizeof size + sums.size())) || !my.film.restore(sums))
+    return false;
+  my.plan = std::move(plan);
+  return true;
 }
 
 std::optional<Picture> coarse_picture(const RenderScene& scene, const ir::RenderSettings& settings,

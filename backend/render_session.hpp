@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "backend/backend.hpp"
+#include "backend/sample_plan.hpp"
 
 namespace scenec::backend {
 
@@ -22,19 +23,21 @@ class RenderSession {
   // the one of the settings.
   RenderSession(const RenderScene& scene, const ir::RenderSettings& settings,
                 const ir::EffectSet& effects, ThreadPool& pool,
-                KernelChoice kernel = KernelChoice::smallest, const ir::Camera* camera = nullptr);
+                KernelChoice kernel = KernelChoice::smallest, const ir::Camera* camera = nullptr,
+                SampleSpread spread = SampleSpread::even);
   ~RenderSession();
   RenderSession(RenderSession&&) noexcept;
   RenderSession& operator=(RenderSession&&) noexcept;
 
   // Called from worker threads with the part of the round that is done, after every tile.
   using PartFunction = std::function<void(double)>;
-  // Gives every pixel `samples` more. False when it was stopped: it returns within milliseconds,
-  // the round is dropped and the samples of finished rounds stay; advance() may be called again.
+  // Gives the pixels `samples` more: every one, or on average. False when it was stopped: it
+  // returns within milliseconds, the round is dropped and the samples of finished rounds stay;
+  // advance() may be called again.
   bool advance(std::int64_t samples, const std::stop_token& stop = {},
                const PartFunction& part_done = {});
 
-  [[nodiscard]] std::int64_t samples() const;  // a pixel, of finished rounds
+  [[nodiscard]] std::int64_t samples() const;  // a pixel on average, of finished rounds
   [[nodiscard]] Picture picture() const;       // of finished rounds, with the layers asked for
   [[nodiscard]] ErrorEstimate error() const;
   [[nodiscard]] std::uint64_t rays() const;  // dropped rounds included
@@ -72,7 +75,7 @@ struct RenderHooks {
 };
 // Advances the session until the settings' `samples` and `stop` hold, whichever comes first.
 //
-// `stop.error` is looked at where the samples have grown by a quarter, from 64 on, and holds when
+// `stop.error` is looked at where the samples have grown by an eighth, from 64 on, and holds when
 // it did the last time too: with the same scene, seed and binary it stops at the same sample, with
 // any threads and however often the render was taken up again. Other rules hold at round's ends;
 // rounds take a second or two.

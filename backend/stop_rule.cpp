@@ -19,7 +19,7 @@ std::int64_t sample_cap_of(const ir::RenderSettings& s) {
 
 std::int64_t next_look(std::int64_t done) {
   std::int64_t look = 1;
-  while (look <= done) look += std::max<std::int64_t>(1, look / 4);
+  while (look <= done) look += std::max<std::int64_t>(1, look / 8);
   return look;
 }
 

@@ -15,7 +15,7 @@ inline constexpr std::int64_t samples_before_error = 64;
 // Samples a pixel after which a render ends in any case.
 [[nodiscard]] std::int64_t sample_cap_of(const ir::RenderSettings& settings);
 // The next number of samples, after `done` of them, at which `stop.error` is looked at: they grow
-// by a quarter, so that stopping at one costs little.
+// by an eighth: coarser steps overshoot what was asked for, finer ones cost more looks.
 [[nodiscard]] std::int64_t next_look(std::int64_t done);
 // Whether the error asked for is reached, at a look. `reached` is what the look before found and
 // becomes what this one does.

@@ -113,6 +113,7 @@ RenderIdentity identity_of(const ir::Scene& scene, const ir::RenderSettings& set
           {"background", text_of(settings.background)},
           {"effects", names_of(effects)},
           {"precision", fmt::format("{}", static_cast<int>(options.precision))},
+          {"spread", options.adaptive ? "adaptive" : "even"},
           {"layers", layers}};
 }
 

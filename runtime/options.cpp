@@ -148,6 +148,12 @@ constexpr std::array option_table{
               [](Options& o, Text v) { return store_parsed(o.error, parse_share(v)); }},
     OptionRow{"--time", "TIME", "stop after this time: 500ms, 30s, 2min, 1h", rendering,
               [](Options& o, Text v) { return store_parsed(o.time, parse_duration(v)); }},
+    OptionRow{"--adaptive", "", "more samples where the error is; the numbers are means", render_only,
+              [](Options& o, Text) -> Problem {
+                o.adaptive = true;
+                return std::nullopt;
+              },
+              ValueNeed::none},
     OptionRow{"--seed", "N", "seed of all random choices", sampling,
               [](Options& o, Text v) {
                 return store_parsed(
@@ -391,6 +397,7 @@ std::string picture_command(const Options& options) {
   if (options.dialect) {
     add("--dialect", *options.dialect == grammar::Dialect::sdl ? "sdl" : "course");
   }
+  if (options.adaptive) text += " --adaptive";
   if (options.half) text += " --half";
   if (options.precision == backend::Precision::full) text += " --precision double";
   return text;

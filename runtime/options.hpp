@@ -55,6 +55,7 @@ struct Options {
   bool half = false;
   SimulatedEffects effects = SimulatedEffects::found;
   backend::Precision precision = backend::Precision::mixed;
+  bool adaptive = false;
 
   // What does not.
   std::optional<backend::Target> target;  // the best of this machine

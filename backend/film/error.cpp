@@ -11,37 +11,46 @@ namespace {
 
 constexpr std::size_t r = replicate_count;
 static_assert(r == 4, "the pairs below are those of four");
-constexpr std::array<std::array<std::size_t, 4>, 3> pairings{
-    {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}};
+// What tells the noise, and the two replicates that see none of it and guess R.
+constexpr std::array<std::array<std::size_t, 4>, 6> pairs{
+    {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
+constexpr std::size_t pairings = 3;  // of those, different ways to make two pairs of four
 // Two-sided normal quantile of 95 %.
 constexpr double quantile = 1.959963984540054;
-// Neighbours so far away may stand in for a pixel when their middles differ by at most this part of
-// their mean plus so many standard deviations of the noise; there must be so many of them.
-constexpr std::size_t neighbour_radius = 2;
+// A pixel next to another is like it when their middles differ by at most this part of their mean
+// plus so many standard deviations of the noise. Fewer than three such neighbours say nothing.
+constexpr std::size_t neighbour_radius = 1;
 constexpr double alike_share = 0.25;
 constexpr double most_deviations = 3;
-constexpr int fewest_neighbours = 4;
-// What the neighbours' scatter says of how far their mean is from the pixel's own true value.
-constexpr double scatter_share = 0.75;
+constexpr int fewest_neighbours = 3;
+// Pixels that share neighbours are wrong about R together: their doubts add up faster than those of
+// independent ones. What no doubt tells (light that is rarer than any replicate shows) is allowed
+// for by a part of the squared error. Both chosen on the tuning scenes of docs/accuracy.md.
+constexpr double shared_doubt = 2;
+constexpr double untold_share = 0.1;
 // What a relative error is measured against where the picture is dark (language: `error`).
 constexpr double dark_share = 0.01;
 
+using Channels = std::array<double, 3>;
+
 struct Noise {
-  std::array<double, 3> mean{};
-  std::array<double, 3> variance{};  // of the mean
-  std::array<double, 3> middle{};  // mean of the two middle replicates: blind to one bright sample
-  std::array<double, 3> spread{};  // a variance of `middle`, likewise
+  Channels mean{};
+  Channels variance{};  // of one replicate
+  Channels middle{};    // mean of the two middle replicates: blind to one bright sample
+  Channels spread{};    // a variance of `middle`, likewise
   ReplicateMeans replicates{};
 };
 
-Noise noise_of(const ReplicateMeans& replicates, const Rgb& mean) {
+Noise noise_of(const ReplicateMeans& replicates) {
   Noise noise;
-  noise.mean = {mean.r, mean.g, mean.b};
   noise.replicates = replicates;
   for (std::size_t c = 0; c < 3; ++c) {
-    noise.variance[c] = variance_of_mean(replicates, c);
+    noise.variance[c] = r * variance_of_mean(replicates, c);
     std::array<double, r> sorted{};
-    for (std::size_t k = 0; k < r; ++k) sorted[k] = replicates[k][c];
+    for (std::size_t k = 0; k < r; ++k) {
+      sorted[k] = replicates[k][c];
+      noise.mean[c] += replicates[k][c] / r;
+    }
     std::sort(sorted.begin(), sorted.end());
     noise.middle[c] = (sorted[1] + sorted[2]) / 2;
     const double narrower = std::min(sorted[2] - sorted[0], sorted[3] - sorted[1]);
@@ -50,12 +59,49 @@ Noise noise_of(const ReplicateMeans& replicates, const Rgb& mean) {
   return noise;
 }
 
-// 1 / (R^2 + e) for the three channels, and how far off a pixel's share may be for not knowing R:
-// standard deviation over the channel's variance.
-struct Weight {
-  std::array<double, 3> value{};
-  std::array<double, 3> doubt{};
+// Sums over the pixels round one: over those that are like it, and of the noise over all.
+struct Neighbours {
+  int alike = 0;
+  int all = 0;
+  Channels sum{};
+  Channels squares{};
+  Channels variance{};
+  Channels variance_of_all{};
 };
+
+// What two replicates and the neighbours say of a pixel's R: a guess, the variance of its noise,
+// and that of what it may be off by in all.
+struct Guess {
+  double value = 0;
+  double noise = 0;
+  double doubt = 0;
+};
+
+Guess guess_of(double first, double second, const Neighbours& near, std::size_t c) {
+  const double own = (first + second) / 2;
+  const double own_variance = (first - second) * (first - second) / 2;  // of one replicate
+  // Three degrees of freedom each, beside one.
+  const auto pooled = [&](double sum, int count) {
+    return (own_variance + 3 * sum) / (1 + 3 * count) / 2;
+  };
+  if (near.alike < fewest_neighbours) {
+    const double variance = pooled(near.variance_of_all[c], near.all);
+    return {own, variance, variance};
+  }
+  // Between the pixel and its neighbours by what each is worth (James and Stein): their scatter
+  // beyond noise says how far R may be from their mean.
+  const double n = near.alike;
+  const double mean = near.sum[c] / n;
+  const double noise = near.variance[c] / n / r;
+  const double scatter = std::max(0.0, near.squares[c] / n - mean * mean) * n / (n - 1);
+  const double differing = std::max(0.0, scatter - noise);
+  const double own_noise = pooled(near.variance[c], near.alike);
+  const double both = differing + own_noise;
+  const double share = both > 0 ? differing / both : 1;
+  const double rest = (1 - share) * (1 - share) * noise / n;
+  return {share * own + (1 - share) * mean, share * share * own_noise + rest,
+          share * own_noise + rest};
+}
 
 // Sums over pixels: of the squared error expected, and of its variance.
 struct Squares {
@@ -67,27 +113,53 @@ struct Squares {
   }
 };
 
-// The three channels of a pixel are noisy together: their covariances count.
-Squares squares_of(const Noise& noise, const Weight& weight) {
-  Squares squares;
-  double doubt = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    squares.expected += weight.value[c] * noise.variance[c];
-    doubt += weight.doubt[c] * noise.variance[c];
-  }
+// Of the difference between the true squared error of a pixel's weighted channels, which are noisy
+// together, and its estimate.
+double variance_of_squares(const ReplicateMeans& x, const Channels& weight) {
   double products = 0;
-  for (const auto& [a, b, d, e] : pairings) {
+  for (std::size_t p = 0; p < pairings; ++p) {
+    const auto& [a, b, d, e] = pairs[p];
     double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto& x = noise.replicates;
-      sum += weight.value[c] * (x[a][c] - x[b][c]) * (x[d][c] - x[e][c]);
-    }
+    for (std::size_t c = 0; c < 3; ++c)
+      sum += weight[c] * (x[a][c] - x[b][c]) * (x[d][c] - x[e][c]);
     products += sum * sum;
   }
   // E[(x_a - x_b)^2 (x_d - x_e)^2] = 4 S^2 with S the variance of a replicate, r s that of the
   // mean.
-  const double squared_variance = products / (static_cast<double>(pairings.size()) * 4 * r * r);
-  squares.variance = 2 * squared_variance * r / (r - 1) + doubt * doubt;
+  const double squared_variance = products / (pairings * 4.0 * r * r);
+  return 2 * squared_variance * r / (r - 1);
+}
+
+Squares relative_squares(const Noise& noise, const Neighbours& near, double dark) {
+  const ReplicateMeans& x = noise.replicates;
+  Squares squares;
+  Channels weight{};
+  double doubt = 0;
+  for (const auto& [a, b, d, e] : pairs) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Guess guess = guess_of(x[d][c], x[e][c], near, c);
+      const double square = guess.value * guess.value;
+      const double sum = square + dark;
+      if (!(sum > 0)) continue;  // a picture without light
+      // f = 1 / (m^2 + e); f'' / 2 f^2 = (3 m^2 - e) / (m^2 + e): what noise adds to f on average.
+      const double curved = (3 * square - dark) / sum * guess.noise;
+      const double f = 1 / std::max(sum + curved, dark / 2);
+      const double difference = x[a][c] - x[b][c];
+      const double variance = difference * difference / (2 * r) / pairs.size();
+      squares.expected += variance * f;
+      weight[c] += f / pairs.size();
+      doubt += variance * 2 * std::abs(guess.value) * f * f * std::sqrt(guess.doubt);
+    }
+  }
+  doubt *= shared_doubt;
+  squares.variance = variance_of_squares(x, weight) + doubt * doubt;
+  return squares;
+}
+
+Squares absolute_squares(const Noise& noise) {
+  Squares squares;
+  for (const double variance : noise.variance) squares.expected += variance / r;
+  squares.variance = variance_of_squares(noise.replicates, {1, 1, 1});
   return squares;
 }
 
@@ -108,15 +180,28 @@ class Estimator {
     pool_.for_each(height_, [&](std::size_t y, unsigned) {
       for (std::size_t x = 0; x < width_; ++x) {
         const Noise& noise = noise_[y * width_ + x];
-        relative[y] += squares_of(noise, weight_at(x, y));
-        absolute[y] += squares_of(noise, {{1, 1, 1}, {}});
+        relative[y] += relative_squares(noise, neighbours_of(x, y), dark_);
+        absolute[y] += absolute_squares(noise);
       }
     });
     ErrorEstimate result;
     result.known = true;
-    result.relative = band_of(relative);
-    result.absolute = band_of(absolute);
+    result.relative = band_of(relative, untold_share);
+    result.absolute = band_of(absolute, 0);
     return result;
+  }
+
+  std::vector<double> squared_errors() {
+    if (noise_.empty() || !gather()) return {};
+    find_dark_level();
+    std::vector<double> errors(noise_.size());
+    pool_.for_each(height_, [&](std::size_t y, unsigned) {
+      for (std::size_t x = 0; x < width_; ++x) {
+        const std::size_t i = y * width_ + x;
+        errors[i] = relative_squares(noise_[i], neighbours_of(x, y), dark_).expected;
+      }
+    });
+    return errors;
   }
 
  private:
@@ -130,7 +215,7 @@ class Estimator {
           known[y] = 0;
           return;
         }
-        noise_[i] = noise_of(*means, film_.mean(i));
+        noise_[i] = noise_of(*means);
       }
     });
     return std::find(known.begin(), known.end(), 0) == known.end();
@@ -154,13 +239,6 @@ class Estimator {
     return true;
   }
 
-  // Means of the pixels round one that are like it.
-  struct Neighbours {
-    int count = 0;
-    std::array<double, 3> sum{};
-    std::array<double, 3> squares{};
-    std::array<double, 3> variance{};
-  };
   [[nodiscard]] Neighbours neighbours_of(std::size_t x, std::size_t y) const {
     constexpr std::size_t reach = neighbour_radius;
     const Noise& own = noise_[y * width_ + x];
@@ -168,9 +246,13 @@ class Estimator {
     for (std::size_t ny = y - std::min(y, reach); ny < std::min(y + reach + 1, height_); ++ny) {
       for (std::size_t nx = x - std::min(x, reach); nx < std::min(x + reach + 1, width_); ++nx) {
         const Noise& other = noise_[ny * width_ + nx];
-        if (&other == &own || !are_alike(own, other)) continue;
-        ++found.count;
+        if (&other == &own) continue;
+        ++found.all;
+        const bool alike = are_alike(own, other);
+        found.alike += alike ? 1 : 0;
         for (std::size_t c = 0; c < 3; ++c) {
+          found.variance_of_all[c] += other.variance[c];
+          if (!alike) continue;
           found.sum[c] += other.mean[c];
           found.squares[c] += other.mean[c] * other.mean[c];
           found.variance[c] += other.variance[c];
@@ -180,33 +262,12 @@ class Estimator {
     return found;
   }
 
-  [[nodiscard]] Weight weight_at(std::size_t x, std::size_t y) const {
-    const Neighbours near = neighbours_of(x, y);
-    const Noise& own = noise_[y * width_ + x];
-    const double n = near.count;
-    Weight weight;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const bool alone = near.count < fewest_neighbours;
-      const double mean = alone ? own.middle[c] : near.sum[c] / n;
-      const double noise = alone ? 0 : near.variance[c] / (n * n);
-      const double square = mean * mean;
-      const double sum = square + dark_;
-      if (!(sum > 0)) continue;  // a picture without light
-      // f = 1 / (m^2 + e); f'' / 2 = (3 m^2 - e) / (m^2 + e)^3; f' = -2 m / (m^2 + e)^2.
-      const double curvature = (3 * square - dark_) / (sum * sum) * noise;
-      weight.value[c] = std::clamp(1 - curvature, 0.5, 1.5) / sum;
-      if (alone) continue;
-      const double scatter = std::max(0.0, near.squares[c] / n - square) * n / (n - 1);
-      weight.doubt[c] = 2 * std::abs(mean) / (sum * sum) * std::sqrt(scatter_share * scatter);
-    }
-    return weight;
-  }
-
-  [[nodiscard]] ErrorBand band_of(const std::vector<Squares>& rows) const {
+  [[nodiscard]] ErrorBand band_of(const std::vector<Squares>& rows, double untold) const {
     Squares sum;
     for (const Squares& row : rows) sum += row;
     const double values = 3 * static_cast<double>(noise_.size());
-    const double half = quantile * std::sqrt(std::max(0.0, sum.variance));
+    const double half =
+        std::hypot(quantile * std::sqrt(std::max(0.0, sum.variance)), untold * sum.expected);
     return {std::sqrt(sum.expected / values),
             std::sqrt(std::max(0.0, sum.expected - half) / values),
             std::sqrt((sum.expected + half) / values)};
@@ -224,6 +285,10 @@ class Estimator {
 
 ErrorEstimate error_of(const Film& film, ThreadPool& pool) {
   return Estimator(film, pool).estimate();
+}
+
+std::vector<double> squared_errors_of(const Film& film, ThreadPool& pool) {
+  return Estimator(film, pool).squared_errors();
 }
 
 }  // namespace scenec::backend

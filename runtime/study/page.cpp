@@ -203,7 +203,9 @@ std::string knob_rows(const Json& document) {
     }
     rows += fmt::format("<tr><td><b>{}</b><br><small>{}</small><td>{}<td>{}<td>{} → {}<td>{}<td>{}",
                         escaped(row["name"].get<std::string>()),
-                        escaped(row["what"].get<std::string>()), times_text(row["time_ratio"]),
+                        escaped(row["what"].get<std::string>()),
+                        row.contains("time_ratio") ? times_text(row["time_ratio"])
+                                                   : std::string("one comparison a sample"),
                         error, percent_text(number(row["error_before"]["value"])),
                         percent_text(number(row["error_after"]["value"])), brightness,
                         percent_text(number(row["difference"])));
@@ -283,6 +285,13 @@ std::string study_page(const Json& document) {
       "<tr><th>Choice<th>Time<th>Error at equal samples<th>Error<th>Brightness<th>Difference</tr>{}"
       "</table></div>",
       knob_rows(document));
+  if (document.contains("left_out")) {
+    std::string names;
+    for (const Json& one : document["left_out"])
+      names += (names.empty() ? "" : ", ") + escaped(one.get<std::string>());
+    page += fmt::format(
+        "<p>There was no time for: {}. The same command again goes on from here.</p>", names);
+  }
   return page + "</html>\n";
 }
 

@@ -119,7 +119,9 @@ class RenderRun {
     ir::EffectSet effects = backend::find_effects(*built, settings).simulated();
     if (options_.effects == SimulatedEffects::all) effects = ir::EffectSet::all();
     stats_.kernel = backend::kernel_for(settings.method, effects).name;
-    backend::RenderSession session(*built, settings, effects, pool_);
+    backend::RenderSession session(
+        *built, settings, effects, pool_, backend::KernelChoice::smallest, nullptr,
+        options_.adaptive ? backend::SampleSpread::adaptive : backend::SampleSpread::even);
     backend::StopState state;
     const bool keeps = !checkpoint_path_of(options_).empty();
     CheckpointKeeper keeper(

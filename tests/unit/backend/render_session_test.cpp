@@ -21,9 +21,16 @@ SceneKit lit_ball() {
 
 struct Stage {
   Ready ready{lit_ball().finish()};
-  RenderSession session() {
-    return {*ready.built, ready.scene.render,
-            find_effects(*ready.built, ready.scene.render).simulated(), ready.pool};
+  RenderSession session() { return session_on(ready.pool, SampleSpread::even); }
+  RenderSession adaptive() { return session_on(ready.pool, SampleSpread::adaptive); }
+  RenderSession session_on(ThreadPool& pool, SampleSpread spread) {
+    return {*ready.built,
+            ready.scene.render,
+            find_effects(*ready.built, ready.scene.render).simulated(),
+            pool,
+            KernelChoice::smallest,
+            nullptr,
+            spread};
   }
   std::optional<Picture> coarse(int step, const std::stop_token& stop) {
     return coarse_picture(*ready.built, ready.scene.render,
@@ -75,6 +82,31 @@ TEST(render_session, what_was_saved_goes_on_to_the_same_picture) {
   EXPECT_EQ(second.samples(), 6);
   ASSERT_TRUE(second.advance(7));
   expect_same(second.picture(), first.picture());
+}
+
+TEST(render_session, adaptive_samples_are_the_same_for_any_rounds_threads_and_interruptions) {
+  Stage stage;
+  RenderSession whole = stage.adaptive();
+  ASSERT_TRUE(whole.advance(70));
+  RenderSession parts = stage.adaptive();
+  for (const int count : {1, 15, 3, 21, 12, 18}) ASSERT_TRUE(parts.advance(count));
+  expect_same(parts.picture(), whole.picture());
+  ThreadPool one(1);
+  RenderSession alone = stage.session_on(one, SampleSpread::adaptive);
+  ASSERT_TRUE(alone.advance(70));
+  expect_same(alone.picture(), whole.picture());
+  for (const int first : {16, 20, 36}) {
+    RenderSession before = stage.adaptive();
+    ASSERT_TRUE(before.advance(first));
+    RenderSession after = stage.adaptive();
+    ASSERT_TRUE(after.restore(before.save()));
+    ASSERT_TRUE(after.advance(70 - first));
+    expect_same(after.picture(), whole.picture());
+  }
+  RenderSession even = stage.session();
+  ASSERT_TRUE(even.advance(70));
+  EXPECT_NE(even.picture().rgb, whole.picture().rgb);
+  EXPECT_FALSE(whole.restore(even.save()));
 }
 
 TEST(render_session, sums_that_are_cut_off_are_refused_and_change_nothing) {
