@@ -140,7 +140,7 @@ TEST(Adaptive, LeansToNoSideInShort) {
 
 TEST(Adaptive, SlowLeansToNoSide) {
   for (const char* const name : {"cornell", "still-life", "caustic-glass", "many-lights"})
-    expect_no_lean(name, 48, 200, 512, 20);
+    expect_no_lean(name, 48, 100, 512, 10);
 }
 
 TEST(Adaptive, SlowNeedsFewerSamples) {
