@@ -88,6 +88,8 @@ Result<Claim, std::string> read_claim(std::string_view bytes) {
     claim.scene = scene->second;
   auto options = options_of(command);
   if (!options) return Failure{fmt::format("its command `{}` is none", printable(command))};
+  if (options->adaptive)
+    return Failure{std::string("it was sampled adaptively: its pixels have unequal samples")};
   if (!seed || *seed < 0 || !samples || *samples < 1)
     return Failure{std::string("its `seed` or `samples` is no number of any")};
   claim.options = std::move(*options);

@@ -148,7 +148,8 @@ constexpr std::array option_table{
               [](Options& o, Text v) { return store_parsed(o.error, parse_share(v)); }},
     OptionRow{"--time", "TIME", "stop after this time: 500ms, 30s, 2min, 1h", rendering,
               [](Options& o, Text v) { return store_parsed(o.time, parse_duration(v)); }},
-    OptionRow{"--adaptive", "", "more samples where the error is; the numbers are means", render_only,
+    OptionRow{"--adaptive", "", "more samples where the error is; the numbers are means",
+              render_only,
               [](Options& o, Text) -> Problem {
                 o.adaptive = true;
                 return std::nullopt;

@@ -1,6 +1,7 @@
 #include "runtime/study/curve.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace scenec::runtime {
@@ -8,6 +9,8 @@ namespace scenec::runtime {
 namespace {
 
 constexpr std::int64_t first_fitted = 16;
+// No line is worth following further than so many times the time it was fitted to.
+constexpr double farthest = 1000;
 constexpr double levels[] = {0.1, 0.05, 0.02, 0.01, 0.005};
 
 // log(error) over log(time) as a straight line through points that count equally.
@@ -68,7 +71,12 @@ Json levels_of(const Json& points, const Line& line) {
       // From the last point on along the line.
       const double error = (*before)["error"]["value"].get<double>();
       const double seconds = (*before)["seconds"].get<double>();
-      row["seconds"] = seconds * std::pow(level / error, 1 / line.slope);
+      const double predicted = seconds * std::pow(level / error, 1 / line.slope);
+      if (predicted > farthest * seconds) {
+        rows.push_back(row);
+        continue;
+      }
+      row["seconds"] = predicted;
       row["low"] = seconds * std::pow(level / error, 1 / (line.slope - line.band));
       if (line.slope + line.band < 0)
         row["high"] = seconds * std::pow(level / error, 1 / (line.slope + line.band));
@@ -110,6 +118,7 @@ void measure_curve(const Variant& base, const std::function<bool()>& goes_on, co
   Json points = Json::array();
   std::vector<std::pair<double, double>> fitted;
   double seconds = 0;
+  const auto start = std::chrono::steady_clock::now();
   while (goes_on()) {
     const std::int64_t done = session.samples();
     const double before = cpu_seconds();
@@ -124,14 +133,17 @@ void measure_curve(const Variant& base, const std::function<bool()>& goes_on, co
     if (session.samples() >= first_fitted && error.relative.value > 0 && seconds > 0)
       fitted.emplace_back(std::log(seconds), std::log(error.relative.value));
   }
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto samples = static_cast<double>(std::max<std::int64_t>(1, session.samples()));
   const Line line = line_through(fitted);
   document["curve"] = {{"points", points},
                        {"fitted", line.fitted},
                        {"slope", line.slope},
                        {"slope_band", line.band},
                        {"at_one_second", std::exp(line.at_one)},
-                       {"seconds_a_sample", seconds / static_cast<double>(std::max<std::int64_t>(
-                                                          1, session.samples()))}};
+                       {"seconds_a_sample", seconds / samples},
+                       {"wall_a_sample", wall / samples}};
   document["levels"] = levels_of(points, line);
   add_picture(session.picture(), base.settings, document);
 }

@@ -90,10 +90,11 @@ class Study {
   // As many samples as let every comparison run within its share of the time.
   [[nodiscard]] std::int64_t samples_for(std::size_t comparisons_left) const {
     if (!document_.contains("curve")) return fewest_samples;
-    const double each = document_["curve"]["seconds_a_sample"].get<double>();
-    const double wall = std::max(0.0, plan_.seconds - spent());
-    const double cpu = wall * pool_.size() / static_cast<double>(comparisons_left);
-    const double samples = cpu / (2 * pairs * std::max(each, 1e-9));
+    // As it went while the curve was made: other programs take their part of the machine too.
+    const double each = document_["curve"]["wall_a_sample"].get<double>();
+    const double wall =
+        std::max(0.0, plan_.seconds - spent()) / static_cast<double>(comparisons_left);
+    const double samples = wall / (2 * pairs * std::max(each, 1e-9));
     const auto whole = static_cast<std::int64_t>(std::min(samples, double{most_samples}));
     return std::max(fewest_samples, whole / 4 * 4);
   }
