@@ -18,26 +18,29 @@ using Problem = std::optional<std::string>;
 
 constexpr VerbSet render_only{Verb::render};
 constexpr VerbSet picturing{Verb::render, Verb::watch};
-constexpr VerbSet rendering{Verb::render, Verb::watch, Verb::study};
-constexpr VerbSet compiling{Verb::render,  Verb::watch, Verb::check, Verb::dump,
-                            Verb::explain, Verb::study, Verb::verify};
-constexpr VerbSet parametric{Verb::render, Verb::watch,   Verb::check,
-                             Verb::dump,   Verb::explain, Verb::study};
-constexpr VerbSet reading{Verb::render,  Verb::watch, Verb::check,   Verb::dump,
-                          Verb::convert, Verb::fmt,   Verb::explain, Verb::study};
-constexpr VerbSet colored{Verb::render, Verb::watch,   Verb::check, Verb::dump,  Verb::convert,
-                          Verb::fmt,    Verb::explain, Verb::study, Verb::verify};
-constexpr VerbSet diagnosing{Verb::render,  Verb::check,   Verb::dump,
-                             Verb::convert, Verb::explain, Verb::study};
-constexpr VerbSet printing{Verb::render,  Verb::check, Verb::dump,  Verb::convert,
-                           Verb::explain, Verb::study, Verb::verify};
-constexpr VerbSet rooted{Verb::render,  Verb::watch,   Verb::check, Verb::dump,
-                         Verb::convert, Verb::explain, Verb::study, Verb::verify};
-constexpr VerbSet writing{Verb::render,  Verb::watch, Verb::dump,
-                          Verb::convert, Verb::diff,  Verb::study};
-constexpr VerbSet sampling{Verb::render, Verb::watch, Verb::study, Verb::verify};
+constexpr VerbSet timed{Verb::render, Verb::watch, Verb::study};
+constexpr VerbSet sampled{Verb::render, Verb::watch, Verb::stress};
+constexpr VerbSet rendering{Verb::render, Verb::watch, Verb::study, Verb::stress};
+constexpr VerbSet compiling{Verb::render,  Verb::watch, Verb::check,  Verb::dump,
+                            Verb::explain, Verb::study, Verb::stress, Verb::verify};
+constexpr VerbSet parametric{Verb::render,  Verb::watch, Verb::check, Verb::dump,
+                             Verb::explain, Verb::study, Verb::stress};
+constexpr VerbSet reading{Verb::render, Verb::watch,   Verb::check, Verb::dump,  Verb::convert,
+                          Verb::fmt,    Verb::explain, Verb::study, Verb::stress};
+constexpr VerbSet colored{Verb::render, Verb::watch,   Verb::check, Verb::dump,   Verb::convert,
+                          Verb::fmt,    Verb::explain, Verb::study, Verb::stress, Verb::verify};
+constexpr VerbSet diagnosing{Verb::render,  Verb::check, Verb::dump,  Verb::convert,
+                             Verb::explain, Verb::study, Verb::stress};
+constexpr VerbSet printing{Verb::render,  Verb::check, Verb::dump,   Verb::convert,
+                           Verb::explain, Verb::study, Verb::stress, Verb::verify};
+constexpr VerbSet rooted{Verb::render,  Verb::watch, Verb::check,  Verb::dump,  Verb::convert,
+                         Verb::explain, Verb::study, Verb::stress, Verb::verify};
+constexpr VerbSet writing{Verb::render, Verb::watch, Verb::dump,  Verb::convert,
+                          Verb::diff,   Verb::study, Verb::stress};
+constexpr VerbSet sampling{Verb::render, Verb::watch, Verb::study, Verb::stress, Verb::verify};
 constexpr VerbSet caching{Verb::render, Verb::watch, Verb::check, Verb::verify};
-constexpr VerbSet working{Verb::render, Verb::watch, Verb::check, Verb::study, Verb::verify};
+constexpr VerbSet working{Verb::render, Verb::watch,  Verb::check,
+                          Verb::study,  Verb::stress, Verb::verify};
 constexpr VerbSet watch_only{Verb::watch};
 
 constexpr std::int64_t largest_sample_count = 1048576;
@@ -140,13 +143,13 @@ constexpr std::array option_table{
               [](Options& o, Text v) { return store_path(o.output, v); }},
     OptionRow{"--size", "WxH", "width and height in pixels", rendering,
               [](Options& o, Text v) { return store_parsed(o.size, parse_size(v)); }},
-    OptionRow{"--samples", "N", "samples a pixel; replaces the scene's samples and stop", picturing,
+    OptionRow{"--samples", "N", "samples a pixel; replaces the scene's samples and stop", sampled,
               [](Options& o, Text v) {
                 return store_parsed(o.samples, parse_whole_number(v, 1, largest_sample_count));
               }},
     OptionRow{"--error", "E", "stop at this relative error of the picture: 1%", render_only,
               [](Options& o, Text v) { return store_parsed(o.error, parse_share(v)); }},
-    OptionRow{"--time", "TIME", "stop after this time: 500ms, 30s, 2min, 1h", rendering,
+    OptionRow{"--time", "TIME", "stop after this time: 500ms, 30s, 2min, 1h", timed,
               [](Options& o, Text v) { return store_parsed(o.time, parse_duration(v)); }},
     OptionRow{"--adaptive", "", "more samples where the error is; the numbers are means",
               render_only,
@@ -193,7 +196,7 @@ constexpr std::array option_table{
                 return std::nullopt;
               },
               ValueNeed::none},
-    OptionRow{"--precision", "NAME", "vertices of meshes: mixed (default) or double", picturing,
+    OptionRow{"--precision", "NAME", "vertices of meshes: mixed (default) or double", sampled,
               [](Options& o, Text v) {
                 constexpr std::array<Text, 2> names{"mixed", "double"};
                 std::optional<backend::Precision> precision;
@@ -340,14 +343,15 @@ constexpr std::array option_table{
                 return std::nullopt;
               },
               ValueNeed::none},
-    OptionRow{"--json", "", "as JSON (the default of schema); watch: events, one object a line",
-              VerbSet{Verb::schema, Verb::explain, Verb::watch, Verb::diff, Verb::verify},
-              [](Options& o, Text) -> Problem {
-                o.markdown = false;
-                o.json = true;
-                return std::nullopt;
-              },
-              ValueNeed::none},
+    OptionRow{
+        "--json", "", "as JSON (the default of schema); watch: events, one object a line",
+        VerbSet{Verb::schema, Verb::explain, Verb::watch, Verb::diff, Verb::verify, Verb::stress},
+        [](Options& o, Text) -> Problem {
+          o.markdown = false;
+          o.json = true;
+          return std::nullopt;
+        },
+        ValueNeed::none},
     OptionRow{"--markdown", "", "as Markdown tables", VerbSet{Verb::schema},
               [](Options& o, Text) -> Problem {
                 o.markdown = true;
