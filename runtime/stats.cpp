@@ -71,9 +71,9 @@ std::string stats_table(const RunStats& stats) {
   text += fmt::format("{:<18}{:>12}\n", "kernel", stats.kernel);
   for (const auto& [effect, runs] : stats.effect_runs)
     text += fmt::format("  {:<16}{:>12}\n", effect, runs);
-  if (stats.dropped_samples > 0) {
-    text += fmt::format("{:<18}{:>12}\n", "dropped samples", stats.dropped_samples);
-  }
+  text += stats.dropped_samples == 0 ? std::string("every sample was counted\n")
+                                     : fmt::format("{:<18}{:>12} not finite, left out\n",
+                                                   "dropped samples", stats.dropped_samples);
   if (stats.cache) text += cache_rows(*stats.cache);
   return text + fmt::format("{:<18}{:>12.1f} MiB\n", "peak memory", peak_megabytes());
 }
