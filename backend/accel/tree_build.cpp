@@ -82,21 +82,44 @@ class Builder {
   }
 
  private:
-  int build_top(const BuildRange& range) {
-    const auto self = static_cast<int>(top_.size());
-    top_.push_back({range.box});
-    BuildRange left;
-    BuildRange right;
-    if (range.count <= task_size || !split_range(refs_, range, settings_, left, right)) {
-      at(self).task = static_cast<int>(tasks_.size());
-      tasks_.emplace_back().range = range;
-      return self;
+  // A level at a time, all its ranges at once: the upper levels are a third of the work.
+  void build_top(const BuildRange& whole) {
+    struct Halves {
+      bool split = false;
+      BuildRange left;
+      BuildRange right;
+    };
+    std::vector<BuildRange> ranges{whole};  // of top_
+    top_.push_back({whole.box});
+    for (std::size_t level = 0; level < top_.size();) {
+      std::vector<Halves> halves(top_.size() - level);
+      pool_.for_each(halves.size(), [&](std::size_t i, unsigned) {
+        const BuildRange& range = ranges[level + i];
+        Halves& h = halves[i];
+        h.split = range.count > task_size && split_range(refs_, range, settings_, h.left, h.right);
+      });
+      for (std::size_t i = 0; i < halves.size(); ++i) {
+        if (!halves[i].split) continue;
+        top_[level + i].first = static_cast<int>(top_.size());
+        top_[level + i].second = static_cast<int>(top_.size()) + 1;
+        for (const BuildRange& range : {halves[i].left, halves[i].right}) {
+          ranges.push_back(range);
+          top_.push_back({range.box});
+        }
+      }
+      level += halves.size();
     }
-    const int first = build_top(left);
-    const int second = build_top(right);
-    at(self).first = first;
-    at(self).second = second;
-    return self;
+    give_tasks(0, ranges);
+  }
+  // Numbered from left to right, so that what is near in space is near in memory.
+  void give_tasks(int index, const std::vector<BuildRange>& ranges) {
+    if (at(index).first < 0) {
+      at(index).task = static_cast<int>(tasks_.size());
+      tasks_.emplace_back().range = ranges[static_cast<std::size_t>(index)];
+      return;
+    }
+    give_tasks(at(index).first, ranges);
+    give_tasks(at(index).second, ranges);
   }
 
   void build_task(Task& task) {
