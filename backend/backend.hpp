@@ -93,9 +93,10 @@ struct Picture {
   std::vector<float> rgb;
   std::vector<float> alpha;
   std::vector<std::pair<std::string, std::vector<float>>> layers;
-  std::int64_t samples = 0;           // a pixel, of the finished rounds
-  bool complete = true;               // false after a stop request
-  std::uint64_t dropped_samples = 0;  // not finite: counted, never averaged
+  std::int64_t samples = 0;             // a pixel, of the finished rounds
+  bool complete = true;                 // false after a stop request
+  std::uint64_t dropped_samples = 0;    // not finite: counted, never averaged
+  std::uint64_t saturated_samples = 0;  // beyond what a sum holds: cut to it
   std::uint64_t rays = 0;
   // How often code ran that only this effect calls for; 0 for effects that are not simulated.
   std::array<std::uint64_t, ir::effect_count> effect_runs{};

@@ -293,7 +293,6 @@ PreparedPtr prepare_all(const ir::Scene& scene, FileSystem& files, ThreadPool& p
     for (Diagnostic& diagnostic : report.diagnostics) sink.report(std::move(diagnostic));
   }
   check_items(scene, sink);
-  check_supported(scene, sink);
   return sink.error_count() == errors_before ? std::move(prepared) : nullptr;
 }
 

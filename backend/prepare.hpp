@@ -59,7 +59,4 @@ class MeshPartTaker {
 // Nesting of instances over the limit, and emission that cannot be sampled.
 void check_items(const ir::Scene& scene, DiagnosticSink& sink);
 
-// Parts of the language this renderer does not carry out yet, each an error.
-void check_supported(const ir::Scene& scene, DiagnosticSink& sink);
-
 }  // namespace scenec::backend

@@ -8,7 +8,7 @@
 //             of the mean, but never fewer than a tile has. Counts are multiples of the replicates.
 // Error:      The sum of a tile's counts is that of the plan within one step a tile. What a pixel
 //             got decides how many samples follow, so its mean is off by a part of order 1/n of its
-//             own noise, spread over a tile and its neighbours: not measurable (docs/accuracy.md).
+//             own noise, spread over a tile and its neighbours; figures in docs/accuracy.md.
 // Degenerate: no errors known, or none at all: every tile gets the same.
 // Proof:      tests/unit/backend/sample_plan_test.cpp.
 #pragma once

@@ -71,9 +71,14 @@ std::string stats_table(const RunStats& stats) {
   text += fmt::format("{:<18}{:>12}\n", "kernel", stats.kernel);
   for (const auto& [effect, runs] : stats.effect_runs)
     text += fmt::format("  {:<16}{:>12}\n", effect, runs);
-  text += stats.dropped_samples == 0 ? std::string("every sample was counted\n")
-                                     : fmt::format("{:<18}{:>12} not finite, left out\n",
-                                                   "dropped samples", stats.dropped_samples);
+  if (stats.dropped_samples == 0 && stats.saturated_samples == 0)
+    text += "every sample was counted\n";
+  if (stats.dropped_samples > 0)
+    text += fmt::format("{:<18}{:>12} not finite, left out\n", "dropped samples",
+                        stats.dropped_samples);
+  if (stats.saturated_samples > 0)
+    text +=
+        fmt::format("{:<18}{:>12} too bright, cut\n", "saturated samples", stats.saturated_samples);
   if (stats.cache) text += cache_rows(*stats.cache);
   return text + fmt::format("{:<18}{:>12.1f} MiB\n", "peak memory", peak_megabytes());
 }
@@ -97,6 +102,7 @@ std::string stats_json(const RunStats& stats) {
   json["effect_runs"] = nlohmann::ordered_json::object();
   for (const auto& [effect, runs] : stats.effect_runs) json["effect_runs"][effect] = runs;
   json["dropped_samples"] = stats.dropped_samples;
+  json["saturated_samples"] = stats.saturated_samples;
   if (stats.cache) {
     json["cache"] = {{"hits", stats.cache->hits},
                      {"misses", stats.cache->misses},

@@ -23,6 +23,7 @@ struct RunStats {
   std::int64_t samples = 0;                                        // a pixel
   std::int64_t pixels = 0;
   std::uint64_t dropped_samples = 0;
+  std::uint64_t saturated_samples = 0;
   backend::ErrorEstimate error;
   std::optional<ContentCacheCounts> cache;  // nullopt: nothing is kept
 

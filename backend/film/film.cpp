@@ -23,6 +23,8 @@ Film::Film(const ir::RenderSettings& settings) : settings_(settings), region_(re
   sums_.resize(pixels);
   if (settings.film != ir::FilmKind::course) replicates_.resize(pixels);
   if (std::any_of(settings.aovs.begin(), settings.aovs.end(), needs_hits)) extra_.resize(pixels);
+  if (std::find(settings.aovs.begin(), settings.aovs.end(), ir::Aov::trust) != settings.aovs.end())
+    distrust_.resize(pixels);
 }
 
 Film::Pixel Film::open(std::size_t x, std::size_t y) {
@@ -32,19 +34,24 @@ Film::Pixel Film::open(std::size_t x, std::size_t y) {
   pixel.sums_ = sums_.at(pixel.index_);
   if (keeps_replicates()) pixel.replicates_ = replicates_.at(pixel.index_);
   if (extra_.kept()) extra_.next[pixel.index_] = extra_.at(pixel.index_);
+  if (distrust_.kept()) distrust_.next[pixel.index_] = distrust_.at(pixel.index_);
   return pixel;
 }
 
 void Film::Pixel::add(std::int64_t number, const FilmSample& sample) {
   if (!is_finite(sample.radiance)) {
     film_->refused_.dropped.fetch_add(1, std::memory_order_relaxed);
+    if (film_->distrust_.kept()) ++film_->distrust_.next[index_].dropped;
     return;
   }
   const double channels[3] = {sample.weight * sample.radiance.r, sample.weight * sample.radiance.g,
                               sample.weight * sample.radiance.b};
   bool fits = true;
   for (std::size_t c = 0; c < 3; ++c) fits = sums_.rgb[c].add(channels[c]) && fits;
-  if (!fits) film_->refused_.saturated.fetch_add(1, std::memory_order_relaxed);
+  if (!fits) {
+    film_->refused_.saturated.fetch_add(1, std::memory_order_relaxed);
+    if (film_->distrust_.kept()) ++film_->distrust_.next[index_].saturated;
+  }
   const auto replicate = static_cast<std::size_t>(number) % replicate_count;
   if (replicate < replicates_.rgb.size()) {
     for (std::size_t c = 0; c < 3; ++c)
@@ -92,12 +99,14 @@ void Film::begin_round() {
   sums_.open_next();
   replicates_.open_next();
   extra_.open_next();
+  distrust_.open_next();
 }
 
 void Film::finish_round(std::int64_t samples) {
   sums_.swap();
   replicates_.swap();
   extra_.swap();
+  distrust_.swap();
   dropped_ += refused_.dropped.exchange(0);
   saturated_ += refused_.saturated.exchange(0);
   samples_ += samples;
@@ -149,6 +158,7 @@ std::string Film::save() const {
   sums_.pack(out);
   replicates_.pack(out);
   extra_.pack(out);
+  distrust_.pack(out);
   return out;
 }
 
@@ -160,6 +170,7 @@ bool Film::restore(std::string_view bytes) {
   auto sums = reader.list<std::vector<PixelSums>>(sums_.size());
   auto replicates = reader.list<std::vector<ReplicateSums>>(replicates_.size());
   auto extra = reader.list<std::vector<Extra>>(extra_.size());
+  auto distrust = reader.list<std::vector<Distrust>>(distrust_.size());
   if (!reader.at_end() || samples < 0) return false;
   drop_round();
   samples_ = samples;
@@ -168,6 +179,7 @@ bool Film::restore(std::string_view bytes) {
   sums_.done = std::move(sums);
   replicates_.done = std::move(replicates);
   extra_.done = std::move(extra);
+  distrust_.done = std::move(distrust);
   return true;
 }
 
@@ -187,6 +199,7 @@ Picture Film::picture() const {
   }
   picture.samples = samples_;
   picture.dropped_samples = dropped_;
+  picture.saturated_samples = saturated_;
   append_layers(picture);
   return picture;
 }

@@ -132,6 +132,11 @@ class Film {
     }
     void swap() { done.swap(next); }
   };
+  // Samples of a pixel that the sums do not hold as they were.
+  struct Distrust {
+    std::uint32_t dropped = 0;    // not finite
+    std::uint32_t saturated = 0;  // beyond what a sum holds
+  };
   struct Refused {
     std::atomic<std::uint64_t> dropped{0};    // not finite
     std::atomic<std::uint64_t> saturated{0};  // beyond what a sum holds
@@ -148,6 +153,7 @@ class Film {
   Buffers<PixelSums> sums_;
   Buffers<ReplicateSums> replicates_;  // empty: film .course, whose samples are all the same
   Buffers<Extra> extra_;               // empty: no layer needs them
+  Buffers<Distrust> distrust_;         // empty: the layer `trust` is not asked for
   std::uint64_t dropped_ = 0;          // of finished rounds
   std::uint64_t saturated_ = 0;
   Refused refused_;  // in the running round

@@ -1,5 +1,7 @@
 // The extra layers of a picture. Values of surfaces are means over the samples that hit one; where
 // none did they are 0. `variance` is that of the pixel's mean; 0 where it is not known.
+// `trust` counts the samples that are not in the pixel as they were: `trust.dropped` were not
+// finite and were left out, `trust.saturated` were beyond what a sum holds and were cut.
 #include <algorithm>
 #include <cmath>
 
@@ -73,7 +75,11 @@ void Film::append_layers(Picture& picture) const {
                [&](std::size_t i) { return static_cast<double>(sums_.at(i).count); });
         break;
       case ir::Aov::trust:
-        break;  // how far a pixel can be trusted needs two estimates; this renderer makes one
+        append(picture, "trust.dropped", n,
+               [&](std::size_t i) { return static_cast<double>(distrust_.at(i).dropped); });
+        append(picture, "trust.saturated", n,
+               [&](std::size_t i) { return static_cast<double>(distrust_.at(i).saturated); });
+        break;
     }
   }
 }

@@ -220,6 +220,7 @@ class RenderRun {
     stats_.samples = picture.samples;
     stats_.pixels = std::int64_t{picture.width} * picture.height;
     stats_.dropped_samples = picture.dropped_samples;
+    stats_.saturated_samples = picture.saturated_samples;
     if (cache_) stats_.cache = cache_->counts();
     if (options_.stats == StatsForm::table) environment_.err << stats_table(stats_);
     if (options_.stats != StatsForm::json) return std::nullopt;

