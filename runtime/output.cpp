@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <system_error>
+
 #include "base/atomic_file.hpp"
 #include "base/text.hpp"
 #include "runtime/dependencies.hpp"
@@ -65,6 +68,14 @@ ExitCode write_text(const std::string& path, std::string_view text, Session& ses
       check_output_is_no_input(path, session) && write_output(path, text, session.sink());
   const ExitCode code = session.finish(environment);
   return written ? code : ExitCode::file_error;
+}
+
+bool make_folder(const std::string& path, const Environment& environment) {
+  std::error_code problem;
+  std::filesystem::create_directories(path, problem);
+  if (problem)
+    environment.err << fmt::format("scenec: `{}`: {}\n", printable(path), problem.message());
+  return !problem;
 }
 
 }  // namespace scenec::runtime

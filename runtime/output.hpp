@@ -31,4 +31,7 @@ bool write_output(const std::string& path, std::string_view bytes, DiagnosticSin
 [[nodiscard]] ExitCode write_text(const std::string& path, std::string_view text, Session& session,
                                   const Environment& environment);
 
+// Makes a folder, and those above it, where there is none; false after a line on the error stream.
+[[nodiscard]] bool make_folder(const std::string& path, const Environment& environment);
+
 }  // namespace scenec::runtime

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,6 +60,16 @@ std::optional<ir::RenderSettings> settings_of(const Options& options, const ir::
     return std::nullopt;
   }
   return settings;
+}
+
+ir::ImageSize small_size(ir::ImageSize size) {
+  constexpr double most_pixels = 20'000;
+  const double pixels = static_cast<double>(size.width) * static_cast<double>(size.height);
+  const double scale = std::min(1.0, std::sqrt(most_pixels / pixels));
+  const auto part = [&](std::int64_t side) {
+    return std::max<std::int64_t>(1, std::llround(scale * static_cast<double>(side)));
+  };
+  return {part(size.width), part(size.height)};
 }
 
 }  // namespace scenec::runtime

@@ -14,4 +14,8 @@ namespace scenec::runtime {
                                                             const ir::Scene& scene,
                                                             const Environment& environment);
 
+// At most 20,000 pixels of the same shape: for what renders a picture many times over. A smaller
+// picture has the same error at the same samples; so many pixels tell it well.
+[[nodiscard]] ir::ImageSize small_size(ir::ImageSize size);
+
 }  // namespace scenec::runtime

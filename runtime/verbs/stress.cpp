@@ -29,8 +29,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t usual_samples = 64;
-constexpr double most_pixels = 20'000;  // of a picture whose size is not chosen
-constexpr double false_alarm = 1e-4;    // of a whole run
+constexpr double false_alarm = 1e-4;  // of a whole run
 constexpr std::size_t sides[] = {4, 8, 16, 64};
 // Of pixels that count as the same: rounding decided nothing in them.
 constexpr double same_share = 1e-3;
@@ -78,15 +77,6 @@ std::string place_text(const SourceMap& sources, Span span) {
   return fmt::format("{}:{}", sources.path(written.file), position.line);
 }
 
-ir::ImageSize small_size(ir::ImageSize size) {
-  const double pixels = static_cast<double>(size.width) * static_cast<double>(size.height);
-  const double scale = std::min(1.0, std::sqrt(most_pixels / pixels));
-  const auto part = [&](std::int64_t side) {
-    return std::max<std::int64_t>(1, std::llround(scale * static_cast<double>(side)));
-  };
-  return {part(size.width), part(size.height)};
-}
-
 class StressRun {
  public:
   StressRun(const Options& options, const Environment& environment)
@@ -97,15 +87,8 @@ class StressRun {
         pool_(static_cast<unsigned>(options.threads.value_or(0))) {}
 
   ExitCode run() {
-    if (!options_.output.empty()) {
-      std::error_code problem;
-      fs::create_directories(options_.output, problem);
-      if (problem) {
-        environment_.err << fmt::format("scenec: `{}`: {}\n", printable(options_.output),
-                                        problem.message());
-        return ExitCode::file_error;
-      }
-    }
+    if (!options_.output.empty() && !make_folder(options_.output, environment_))
+      return ExitCode::file_error;
     const auto scene = session_.load_and_compile(pool_);
     if (!scene) return session_.finish(environment_);
     auto settings = settings_of(options_, *scene, environment_);

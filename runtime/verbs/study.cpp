@@ -28,17 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double usual_seconds = 60;
-// A smaller picture has the same error at the same samples; so many pixels tell it well.
-constexpr double most_pixels = 20'000;
-
-ir::ImageSize study_size(ir::ImageSize size) {
-  const double pixels = static_cast<double>(size.width) * static_cast<double>(size.height);
-  const double scale = std::min(1.0, std::sqrt(most_pixels / pixels));
-  const auto part = [&](std::int64_t side) {
-    return std::max<std::int64_t>(1, std::llround(scale * static_cast<double>(side)));
-  };
-  return {part(size.width), part(size.height)};
-}
 
 std::string machine_text() {
   utsname name{};
@@ -70,13 +59,7 @@ class StudyRun {
                        : options.output) {}
 
   ExitCode run() {
-    std::error_code problem;
-    fs::create_directories(directory_, problem);
-    if (problem) {
-      environment_.err << fmt::format("scenec: `{}`: {}\n", printable(directory_.string()),
-                                      problem.message());
-      return ExitCode::file_error;
-    }
+    if (!make_folder(directory_.string(), environment_)) return ExitCode::file_error;
     const auto scene = session_.load_and_compile(pool_);
     if (!scene) return session_.finish(environment_);
     auto settings = settings_of(options_, *scene, environment_);
@@ -85,7 +68,7 @@ class StudyRun {
         backend::prepare(*scene, session_.files(), pool_, session_.sink());
     if (const ExitCode code = session_.finish(environment_); code != ExitCode::ok || !prepared)
       return code;
-    if (!options_.size) settings->size = study_size(settings->size);
+    if (!options_.size) settings->size = small_size(settings->size);
     if (!options_.region) settings->region.reset();
     settings->stop = {};
     return measure(*scene, *settings, *prepared);
