@@ -244,6 +244,25 @@ TEST(SceneAccel, TiesGoToTheSmallestItem) {
   }
 }
 
+// Texture coordinates cost angles: `where_textured` leaves them out where nothing reads them.
+TEST(SceneAccel, TextureCoordinatesAreMadeWhereTheyAreAskedFor) {
+  SceneAccel accel;
+  accel.add(0, Sphere{{-3, 0, 5}, 1}, SceneAccel::identity, {.textured = true});
+  accel.add(1, Sphere{{3, 0, 5}, 1}, SceneAccel::identity, {.textured = false});
+  accel.build(pool());
+  for (const double x : {-3.0, 3.0}) {
+    const Ray ray{{x, 0.25, 0}, {0, 0, 1}};
+    Hit all;
+    Hit some;
+    ASSERT_TRUE(accel.intersect(ray, all, {}, HitDetail::texture));
+    ASSERT_TRUE(accel.intersect(ray, some, {}, HitDetail::where_textured));
+    EXPECT_EQ(all.point, some.point);
+    EXPECT_NE(all.v, 0);
+    EXPECT_EQ(some.v, x < 0 ? all.v : 0);
+    EXPECT_EQ(some.dp_du, x < 0 ? all.dp_du : Vector3{});
+  }
+}
+
 TEST(SceneAccel, FilterLetsRaysGoOn) {
   SceneAccel accel;
   accel.add(0, Sphere{{0, 0, 5}, 1}, SceneAccel::identity, {.filtered = true});
