@@ -41,6 +41,8 @@ struct RenderScene {
   LightTable lights;
   // First emitter of emissive items inside instances, by path_key.
   std::unordered_map<std::uint64_t, std::uint32_t> instanced_emitters;
+  // `.path`: paths of fewer bounces never end by chance. Has no influence on the mean.
+  std::uint32_t sure_bounces = 3;
   double radius = 1;  // of a sphere round everything bounded
 
   // The material at a hit: the outermost instance that has one decides.

@@ -48,8 +48,6 @@ class PathTracer {
   }
 
  private:
-  // Paths of fewer bounces never end by chance.
-  static constexpr std::uint32_t sure_bounces = 3;
   // Even a path that loses nothing ends at last.
   static constexpr double longest_survival = 0.95;
 
@@ -179,7 +177,7 @@ class PathTracer {
 
   bool survives() {
     if (is_black(throughput_)) return false;
-    if (depth_ <= sure_bounces) return true;
+    if (depth_ <= scene_.sure_bounces) return true;
     const double p = smaller(longest_survival, max_component(throughput_) * eta_scale_);
     if (!(sampler_.get_1d(dimension::bounce(depth_ - 1) + dimension::roulette) < p)) return false;
     throughput_ *= 1 / p;

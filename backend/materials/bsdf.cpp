@@ -194,7 +194,8 @@ BsdfSample sample_coat(const Bsdf& b, double lobe, Sample2 u) {
 
 void finish(Bsdf& b) {
   b.compensation = {1, 1, 1};
-  if (b.kind == BsdfKind::rough_metal || b.kind == BsdfKind::coat) {
+  const bool has_facets = b.kind == BsdfKind::rough_metal || b.kind == BsdfKind::coat;
+  if (has_facets && b.albedo->lost_light == LostLight::returned) {
     const Rgb normal = facet_reflectance(b, 1);
     const double full = b.albedo->directional(b.wo.z, b.alpha).full();
     b.compensation = Rgb(1, 1, 1) + normal * ((1 - full) / full);

@@ -11,10 +11,17 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "backend/math/color.hpp"
 
 namespace scenec::backend {
+
+// What becomes of the light that single scattering between facets loses.
+enum class LostLight : std::uint8_t {
+  returned,  // energy compensation
+  left_out,  // for pricing it: rough metals and coats come out too dark
+};
 
 class GgxAlbedo {
  public:
@@ -25,6 +32,7 @@ class GgxAlbedo {
     [[nodiscard]] Rgb of(const Rgb& f0) const { return f0 * base + Rgb::gray(share); }
   };
   GgxAlbedo();
+  LostLight lost_light = LostLight::returned;
   [[nodiscard]] Terms directional(double mu, double alpha) const;
   // The cosine-weighted mean over the hemisphere.
   [[nodiscard]] Terms average(double alpha) const;

@@ -100,8 +100,8 @@ std::optional<Clamped> clamp_samples(const Variant& base, double times, std::int
 
 }  // namespace
 
-Json clamp_row(const Variant& base, double times, std::int64_t samples, const StudyPlan& plan,
-               ThreadPool& pool) {
+Json clamp_row(const Variant& base, const Variant& other, double times, std::int64_t samples,
+               const StudyPlan& plan, ThreadPool& pool) {
   std::vector<double> errors, means;
   double distance = 0;
   double before = 0;
@@ -122,9 +122,9 @@ Json clamp_row(const Variant& base, double times, std::int64_t samples, const St
     before += one->plain_noise / pairs;
     after += one->clamped_noise / pairs;
   }
-  Json row{{"samples", samples}};
+  Json row{{"name", other.name}, {"what", other.what}, {"samples", samples}};
   row["error_ratio"] = spread_of(errors);
-  row["brightness"] = spread_of(means);
+  row["brightness"] = mean_band_of(means);
   row["difference"] = distance;
   row["error_before"] = {{"value", before}};
   row["error_after"] = {{"value", after}};

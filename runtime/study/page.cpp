@@ -1,153 +1,15 @@
 // The report of a study as one HTML page: plots are SVG, the picture is inside, nothing is loaded.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
-#include "runtime/progress.hpp"
+#include "runtime/study/page_parts.hpp"
 #include "runtime/study/study.hpp"
 
 namespace scenec::runtime {
 
 namespace {
-
-double number(const Json& value) {
-  return value.get<double>();
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
-std::string seconds_text(double seconds) {
-  if (seconds < 0.1) return fmt::format("{:.2g} ms", 1000 * seconds);
-  return seconds < 10 ? fmt::format("{:.2g} s", seconds) : duration_text(seconds);
-}
-std::string percent_text(double value) {
-  return fmt::format("{:.3g} %", 100 * value);
-}
-std::string times_text(const Json& ratio) {
-  const double low = ratio["low"];
-  const double high = ratio["high"];
-  if (low <= 1 && high >= 1) return "no difference measured";
-  return fmt::format("× {:.3g} <small>({:.3g} – {:.3g})</small>", number(ratio["value"]), low,
-                     high);
-}
-
-// A plot of two logarithmic axes.
-class LogPlot {
- public:
-  LogPlot(double x_low, double x_high, double y_low, double y_high)
-      : x_low_(std::log10(x_low)),
-        x_high_(std::log10(x_high)),
-        y_low_(std::log10(y_low)),
-        y_high_(std::log10(y_high)) {}
-
-  [[nodiscard]] double x(double value) const {
-    return left + (std::log10(value) - x_low_) / (x_high_ - x_low_) * (width - left - 16);
-  }
-  [[nodiscard]] double y(double value) const {
-    return 12 + (y_high_ - std::log10(value)) / (y_high_ - y_low_) * (height - bottom - 12);
-  }
-  void add(std::string text) { body_ += std::move(text); }
-  void add_path(const std::vector<std::pair<double, double>>& points, std::string_view style,
-                bool closed = false) {
-    std::string path;
-    for (const auto& [a, b] : points)
-      path += fmt::format("{}{:.1f},{:.1f}", path.empty() ? "M" : "L", x(a), y(b));
-    add(fmt::format("<path d=\"{}{}\" class=\"{}\"/>", path, closed ? "Z" : "", style));
-  }
-  [[nodiscard]] std::string text() const {
-    std::string grid;
-    for (int e = static_cast<int>(std::floor(x_low_)); e <= std::ceil(x_high_); ++e) {
-      for (const int step : {1, 2, 5}) {
-        const double value = step * std::pow(10.0, e);
-        if (std::log10(value) < x_low_ || std::log10(value) > x_high_) continue;
-        grid += fmt::format(
-            "<line class=\"g\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"12\" y2=\"{1}\"/>"
-            "<text x=\"{0:.1f}\" y=\"{2}\" text-anchor=\"middle\">{3}</text>",
-            x(value), height - bottom, height - bottom + 16, seconds_text(value));
-      }
-    }
-    for (int e = static_cast<int>(std::floor(y_low_)); e <= std::ceil(y_high_); ++e) {
-      for (const int step : {1, 2, 5}) {
-        const double value = step * std::pow(10.0, e);
-        if (std::log10(value) < y_low_ || std::log10(value) > y_high_) continue;
-        grid += fmt::format(
-            "<line class=\"g\" y1=\"{0:.1f}\" y2=\"{0:.1f}\" x1=\"{1}\" x2=\"{2}\"/>"
-            "<text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>",
-            y(value), left, width - 16, left - 6, y(value) + 4, percent_text(value));
-      }
-    }
-    return fmt::format(
-        "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"error against time\">{}{}"
-        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">CPU time</text></svg>",
-        width, height, grid, body_, width / 2, height - 4);
-  }
-
-  static constexpr int width = 720;
-  static constexpr int height = 380;
-  static constexpr int left = 62;
-  static constexpr int bottom = 40;
-
- private:
-  double x_low_, x_high_, y_low_, y_high_;
-  std::string body_;
-};
-
-std::string curve_of(const Json& document) {
-  const Json& points = document["curve"]["points"];
-  if (points.size() < 2) return "<p>There was no time for a curve.</p>";
-  std::vector<std::pair<double, double>> middle;
-  std::vector<std::pair<double, double>> band;
-  double lowest = 1e300;
-  double highest = 0;
-  for (const Json& p : points) {
-    const double value = p["error"]["value"];
-    if (!(value > 0)) continue;
-    middle.emplace_back(number(p["seconds"]), value);
-    band.emplace_back(number(p["seconds"]), number(p["error"]["high"]));
-    lowest = std::min(lowest, std::max(value / 2, number(p["error"]["low"])));
-    highest = std::max(highest, number(p["error"]["high"]));
-  }
-  if (middle.size() < 2) return "<p>The picture has no noise to measure.</p>";
-  for (auto p = points.rbegin(); p != points.rend(); ++p) {
-    const double value = (*p)["error"]["value"];
-    if (value > 0)
-      band.emplace_back(number((*p)["seconds"]), std::max(lowest, number((*p)["error"]["low"])));
-  }
-  LogPlot plot(middle.front().first * 0.8, middle.back().first * 1.25, lowest * 0.8,
-               highest * 1.25);
-  plot.add_path(band, "band", true);
-  if (document["curve"]["fitted"].get<bool>()) {
-    const double slope = document["curve"]["slope"];
-    const double at_one = document["curve"]["at_one_second"];
-    std::vector<std::pair<double, double>> line;
-    for (const double t : {middle.front().first, middle.back().first})
-      line.emplace_back(t, at_one * std::pow(t, slope));
-    plot.add_path(line, "fit");
-  }
-  plot.add_path(middle, "curve");
-  for (const auto& [t, e] : middle)
-    plot.add(fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\"/>", plot.x(t), plot.y(e)));
-  return plot.text();
-}
 
 std::string level_rows(const Json& document) {
   std::string rows;
@@ -166,49 +28,57 @@ std::string level_rows(const Json& document) {
   return rows;
 }
 
+std::string cell_of_name(const Json& row) {
+  return fmt::format("<tr><td><b>{}</b><br><small>{}</small>",
+                     escaped(row["name"].get<std::string>()),
+                     escaped(row["what"].get<std::string>()));
+}
+
+// What leaving the effect out saves, as a share of the time.
+std::string share_text(const Json& ratio) {
+  const double least = 100 * (1 - number(ratio["high"]));
+  const double most = 100 * (1 - number(ratio["low"]));
+  const std::string band = fmt::format("<small>({:.0f} – {:.0f})</small>", least, most);
+  if (least <= 0 && most >= 0) return "no difference measured " + band;
+  const double share = 100 * (1 - number(ratio["value"]));
+  return fmt::format("{:.0f} % {}{}", share, band, share < 0 ? "<br>it saves time" : "");
+}
+
 std::string effect_rows(const Json& document) {
   std::string rows;
   for (const Json& row : document.value("effects", Json::array())) {
-    const double low = row["time_ratio"]["low"];
-    const double high = row["time_ratio"]["high"];
-    const std::string share = low <= 1 && high >= 1
-                                  ? "no difference measured"
-                                  : fmt::format("{:.0f} % <small>({:.0f} – {:.0f})</small>",
-                                                100 * (1 - number(row["time_ratio"]["value"])),
-                                                100 * (1 - high), 100 * (1 - low));
-    rows += fmt::format("<tr><td><b>{}</b><br><small>{}</small><td>{}<td>{}<td>{:+.2f} %<td>{}",
-                        escaped(row["name"].get<std::string>()),
-                        escaped(row["what"].get<std::string>()), share,
-                        percent_text(number(row["changed_pixels"])),
-                        row.contains("brightness") ? 100 * number(row["brightness"]["value"]) : 0.0,
-                        percent_text(number(row["difference"])));
+    rows += fmt::format("{}<td>{}<td>{}<td>{}<td>{}", cell_of_name(row),
+                        share_text(row["time_ratio"]), percent_text(number(row["changed_pixels"])),
+                        bias_text(row), percent_text(number(row["difference"])));
   }
   return rows;
+}
+
+std::string uncalled_text(const Json& document) {
+  std::string names;
+  for (const Json& name : document.value("not_called_for", Json::array()))
+    names += (names.empty() ? "" : ", ") + escaped(name.get<std::string>());
+  return names.empty() ? ""
+                       : "<p>The scene does not call for " + names +
+                             ": nothing of them is simulated, and they cost nothing.</p>";
 }
 
 std::string knob_rows(const Json& document) {
   std::string rows;
   for (const Json& row : document.value("knobs", Json::array())) {
-    const std::string error =
-        row.contains("error_ratio") ? times_text(row["error_ratio"]) : std::string("no noise");
-    std::string brightness = "–";
-    if (row.contains("brightness")) {
-      const double low = row["brightness"]["low"];
-      const double high = row["brightness"]["high"];
-      brightness =
-          low <= 0 && high >= 0
-              ? "no difference measured"
-              : fmt::format("{:+.2f} % <small>({:+.2f} – {:+.2f})</small>",
-                            100 * number(row["brightness"]["value"]), 100 * low, 100 * high);
-    }
-    rows += fmt::format("<tr><td><b>{}</b><br><small>{}</small><td>{}<td>{}<td>{} → {}<td>{}<td>{}",
-                        escaped(row["name"].get<std::string>()),
-                        escaped(row["what"].get<std::string>()),
-                        row.contains("time_ratio") ? times_text(row["time_ratio"])
-                                                   : std::string("one comparison a sample"),
-                        error, percent_text(number(row["error_before"]["value"])),
-                        percent_text(number(row["error_after"]["value"])), brightness,
-                        percent_text(number(row["difference"])));
+    const auto times = [&](const char* key, const char* otherwise) {
+      return row.contains(key) ? times_text(row[key]) : std::string(otherwise);
+    };
+    rows += fmt::format(
+        "{}<td>{}<td>{}<br><small>{} → {}</small><td>{}<td>{}<td>{}", cell_of_name(row),
+        times("time_ratio", "one comparison a sample"), times("error_ratio", "no noise"),
+        percent_text(number(row["error_before"]["value"])),
+        percent_text(number(row["error_after"]["value"])), times("equal_error_ratio", "–"),
+        bias_text(row), percent_text(number(row["difference"])));
+  }
+  for (const Json& row : document.value("inapplicable", Json::array())) {
+    rows += fmt::format("{}<td colspan=5>does not apply: {}", cell_of_name(row),
+                        escaped(row["why"].get<std::string>()));
   }
   return rows;
 }
@@ -269,21 +139,34 @@ std::string study_page(const Json& document) {
       curve["fitted"].get<bool>() && number(curve["slope"]) < 0
           ? fmt::format("{:.1f}", std::pow(2.0, -1 / number(curve["slope"])))
           : "4",
-      number(curve["slope"]), number(curve["slope_band"]), curve_of(document),
+      number(curve["slope"]), number(curve["slope_band"]), curve_plot(document),
       level_rows(document));
   page += fmt::format(
       "<h2>What each effect costs</h2><p>The scene is rendered without one effect at a time, with "
-      "the same random numbers. <i>Bias</i> is what leaving it out does to the brightness of the "
-      "picture; <i>difference</i> is measured like the error.</p><div class=wide><table><tr><th>"
-      "Effect<th>Share of the time<th>Pixels changed<th>Bias<th>Difference</tr>{}</table></div>",
-      effect_rows(document));
+      "the same random numbers, six times each. <i>Share of the time</i>: what leaving it out "
+      "saves; "
+      "in brackets the least and the largest of the six. <i>Pixels changed</i>: by more than 2 %. "
+      "<i>Bias</i>: what leaving it out does to the brightness of the picture; the brackets hold "
+      "the "
+      "true figure 99 times in 100. <i>Difference</i>: how far the two pictures are apart, "
+      "measured "
+      "like the error.</p><div class=wide><table><tr><th>Effect<th>Share of the time<th>Pixels "
+      "changed<th>Bias<th>Difference</tr>{}</table></div>{}",
+      effect_rows(document), uncalled_text(document));
   page += fmt::format(
       "<h2>What each choice costs</h2><p>The scene as written against the scene with one thing "
-      "changed, in turn, six times each; in brackets the least and the largest ratio. Below 1 is "
-      "faster or more accurate. A change of brightness is bias: more samples do not remove it. "
-      "<i>Difference</i> holds noise too; compare it with the first row.</p><div class=wide><table>"
-      "<tr><th>Choice<th>Time<th>Error at equal samples<th>Error<th>Brightness<th>Difference</tr>{}"
-      "</table></div>",
+      "changed, in turn, six times each; in brackets the least and the largest of six ratios. "
+      "Below "
+      "1 is faster or more accurate. <i>Time to the same error</i>: of both together, as the error "
+      "falls with the square root of the samples. <i>Bias</i>: by how much the whole picture is "
+      "brighter or darker; more samples do not remove it, so a choice with bias never gets to the "
+      "same picture. Its brackets hold the true figure 99 times in 100, but for bright samples so "
+      "rare that none was met. <i>Difference</i>: how far the two pictures are apart, noise of "
+      "both "
+      "included where the change draws other random numbers.</p><div "
+      "class=wide><table><tr><th>Choice"
+      "<th>Time at equal samples<th>Error at equal samples<th>Time to the same error<th>Bias<th>"
+      "Difference</tr>{}</table></div>",
       knob_rows(document));
   if (document.contains("left_out")) {
     std::string names;

@@ -83,10 +83,23 @@ Json spread_of(std::vector<double> values) {
           {"high", values.back()}};
 }
 
+Json mean_band_of(const std::vector<double>& values) {
+  constexpr double quantile = 4.0321;  // of Student's distribution, 99.5 %
+  static_assert(pairs == 6, "the quantile is that of five degrees of freedom");
+  const double n = static_cast<double>(values.size());
+  double mean = 0;
+  for (const double value : values) mean += value / n;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  const double half = quantile * std::sqrt(squares / (n * (n - 1)));
+  return {{"value", mean}, {"low", mean - half}, {"high", mean + half}};
+}
+
 Json comparison(const Variant& base, const Variant& other, std::int64_t samples,
                 const StudyPlan& plan, ThreadPool& pool) {
   std::vector<double> times;
   std::vector<double> errors;
+  std::vector<double> equal_errors;  // time to the same error
   std::vector<double> means;
   std::vector<double> pieces;  // share of pixels changed
   double distance = 0;
@@ -101,8 +114,11 @@ Json comparison(const Variant& base, const Variant& other, std::int64_t samples,
     const Run& b = base_first ? second : first;
     if (!a.error.known || !b.error.known || a.seconds <= 0) continue;
     times.push_back(b.seconds / a.seconds);
-    if (a.error.relative.value > 0)
-      errors.push_back(b.error.relative.value / a.error.relative.value);
+    if (a.error.relative.value > 0) {
+      const double ratio = b.error.relative.value / a.error.relative.value;
+      errors.push_back(ratio);
+      equal_errors.push_back(times.back() * ratio * ratio);
+    }
     const double mean = mean_of(a.picture.rgb);
     if (mean > 0) means.push_back(mean_of(b.picture.rgb) / mean - 1);
     const backend::ImageDifference difference =
@@ -115,8 +131,11 @@ Json comparison(const Variant& base, const Variant& other, std::int64_t samples,
   if (times.size() < static_cast<std::size_t>(pairs)) return nullptr;
   Json row{{"name", other.name}, {"what", other.what}, {"samples", samples}};
   row["time_ratio"] = spread_of(times);
-  if (!errors.empty()) row["error_ratio"] = spread_of(errors);
-  if (!means.empty()) row["brightness"] = spread_of(means);
+  if (!errors.empty()) {
+    row["error_ratio"] = spread_of(errors);
+    row["equal_error_ratio"] = spread_of(equal_errors);
+  }
+  if (means.size() == static_cast<std::size_t>(pairs)) row["brightness"] = mean_band_of(means);
   row["changed_pixels"] = spread_of(pieces)["value"];
   row["difference"] = distance;
   row["error_before"] = json_of(base_error.relative);

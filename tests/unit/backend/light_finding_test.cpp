@@ -3,6 +3,7 @@
 // 0.01 for all tiles of all scenes together (Sidak).
 #include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "backend/render_scene.hpp"
@@ -19,12 +20,11 @@ struct Moments {
   double variance_of_mean = 0;
 };
 
-std::vector<Moments> tile_moments(Ready& ready, LightFinding finding) {
-  ready.built->lights.finding = finding;
+std::vector<Moments> tile_moments(Ready& ready, int first_seed) {
   std::vector<double> sum(tiles * tiles);
   std::vector<double> square(tiles * tiles);
   for (int seed = 0; seed < seeds; ++seed) {
-    ready.scene.render.seed = 100 * static_cast<int>(finding) + seed;
+    ready.scene.render.seed = first_seed + seed;
     const Picture picture = ready.render();
     const int side = picture.width / tiles;
     for (int t = 0; t < tiles * tiles; ++t) {
@@ -41,6 +41,29 @@ std::vector<Moments> tile_moments(Ready& ready, LightFinding finding) {
   for (std::size_t t = 0; t < sum.size(); ++t)
     out.push_back({sum[t], std::fmax(0, square[t] - sum[t] * sum[t]) / (seeds - 1)});
   return out;
+}
+
+std::vector<Moments> tile_moments(Ready& ready, LightFinding finding) {
+  ready.built->lights.finding = finding;
+  return tile_moments(ready, 100 * static_cast<int>(finding));
+}
+
+void expect_same_means(const std::vector<Moments>& a, const std::vector<Moments>& b, double level,
+                       const std::string& what) {
+  for (std::size_t t = 0; t < a.size(); ++t) {
+    const double spread = std::sqrt(a[t].variance_of_mean + b[t].variance_of_mean);
+    if (!(spread > 0)) {
+      EXPECT_EQ(a[t].mean, b[t].mean);
+      continue;
+    }
+    // With 22 degrees of freedom Student's tail is fatter than the normal one: z is shrunk as by
+    // Wallace 1959.
+    const double x = std::fabs(a[t].mean - b[t].mean) / spread;
+    const double freedom = 2 * seeds - 2;
+    const double z = std::sqrt(freedom * std::log1p(x * x / freedom)) * (1 - 3 / (4 * freedom));
+    EXPECT_GT(std::erfc(z / std::sqrt(2.0)), level)
+        << what << " tile " << t << ": " << a[t].mean << " and " << b[t].mean;
+  }
 }
 
 ir::Quad floor_quad() {
@@ -118,22 +141,28 @@ TEST(LightFinding, EveryWayHasTheSameMean) {
     const auto both = tile_moments(ready, LightFinding::both);
     for (const LightFinding one : {LightFinding::aiming, LightFinding::chance}) {
       const auto other = tile_moments(ready, one);
-      for (std::size_t t = 0; t < both.size(); ++t) {
-        const double spread = std::sqrt(both[t].variance_of_mean + other[t].variance_of_mean);
-        if (!(spread > 0)) {
-          EXPECT_EQ(both[t].mean, other[t].mean);
-          continue;
-        }
-        // With 22 degrees of freedom Student's tail is fatter than the normal one: z is shrunk as
-        // by Wallace 1959.
-        const double x = std::fabs(both[t].mean - other[t].mean) / spread;
-        const double freedom = 2 * seeds - 2;
-        const double z = std::sqrt(freedom * std::log1p(x * x / freedom)) * (1 - 3 / (4 * freedom));
-        EXPECT_GT(std::erfc(z / std::sqrt(2.0)), level)
-            << "scene " << number << " tile " << t << ": " << both[t].mean << " and "
-            << other[t].mean << " way " << static_cast<int>(one);
-      }
+      expect_same_means(
+          both, other, level,
+          "scene " + std::to_string(number) + " way " + std::to_string(static_cast<int>(one)));
     }
+  }
+}
+
+// How many bounces are sure costs time and noise, no light.
+TEST(Roulette, HasNoInfluenceOnTheMean) {
+  const double level = 1 - std::pow(1 - 0.01, 1.0 / (2 * tiles * tiles));
+  SceneKit kit;
+  kit.place(floor_quad(), kit.matt(0.8));
+  kit.place(ir::Sphere{{0, 0.8, 0}, {0.8}}, kit.matt(0.9));
+  kit.light(ir::SphereLight{{1.5, 2.5, 1}, {0.7}, 5.0, {}, true, ir::white});
+  finish_scene(kit);
+  kit.settings.max_depth = 8;
+  Ready ready(kit.finish());
+  const auto usual = tile_moments(ready, 1000);
+  for (const std::uint32_t sure : {0U, 1000U}) {
+    ready.built->sure_bounces = sure;
+    expect_same_means(usual, tile_moments(ready, 2000 + static_cast<int>(sure)), level,
+                      "sure bounces: " + std::to_string(sure));
   }
 }
 

@@ -73,6 +73,24 @@ TEST(Furnace, WhiteMetalLosesNothing) {
     }
 }
 
+TEST(Furnace, WithoutCompensationMetalReflectsWhatOneBounceDoes) {
+  static const GgxAlbedo single = [] {
+    GgxAlbedo albedo;
+    albedo.lost_light = LostLight::left_out;
+    return albedo;
+  }();
+  for (const double cosine : {1.0, 0.5}) {
+    Bsdf b;
+    b.kind = BsdfKind::rough_metal;
+    b.specular = {1, 1, 1};
+    b.alpha = 1;
+    b.albedo = &single;
+    b.wo = {std::sqrt(1 - cosine * cosine), 0, cosine};
+    finish(b);
+    EXPECT_NEAR(reflected_in_all(b).g, table().directional(cosine, 1).full(), 0.01) << cosine;
+  }
+}
+
 TEST(Furnace, LambertReflectsItsAlbedo) {
   Bsdf b;
   b.kind = BsdfKind::diffuse;
