@@ -105,6 +105,9 @@ class LightAdder {
   }
 
   void add_all() {
+    for (const ir::Item& item : scene_.items)
+      if (const auto* id = std::get_if<Id<ir::Plane>>(&item.shape))
+        add_wall(kernel_of(scene_.shape(*id)), item);
     add_item_list(scene_.items, 0, Transform{}, ir::MaterialId{});
     for (const ir::Light& light : scene_.lights) add_light(light.kind);
   }
@@ -118,6 +121,18 @@ class LightAdder {
       return id != nullptr && scene_.shape(*id).of.value() < emissive_proto_.size() &&
              emissive_proto_[scene_.shape(*id).of.value()];
     });
+  }
+
+  // Planes that no light passes, of the world itself: nothing is seen through them.
+  void add_wall(const Plane& plane, const ir::Item& item) {
+    if (!item.material.valid() || out_.facts.transparent(item.material) ||
+        out_.facts.clear(item.material) || !transform_of(scene_, item.transform).is_identity())
+      return;
+    walls_.push_back(plane);
+  }
+  void cut_by_walls(Emitter& e) const {
+    if (e.shape != EmitterShape::sphere) return;
+    for (const Plane& wall : walls_) cut_by_plane(e, as_vector(wall.normal), wall.offset);
   }
 
   void add_item_list(const std::vector<ir::Item>& items, std::uint32_t first,
@@ -153,6 +168,7 @@ class LightAdder {
       e.two_sided = out_.facts.two_sided(material);
       e.textured = textured;
       e.radiance = radiance;
+      cut_by_walls(e);
       measure(e);
       out_.lights.emitters.push_back(e);
     }
@@ -194,6 +210,7 @@ class LightAdder {
   void add_shape(const Kernel& kernel, Emitter emitter, Rgb radiance, bool visible) {
     emitter.radiance = radiance;
     emitter.visible = visible;
+    cut_by_walls(emitter);
     measure(emitter);
     const auto number = static_cast<std::uint32_t>(out_.items.size());
     RenderItem item;
@@ -246,6 +263,7 @@ class LightAdder {
   std::vector<std::uint32_t> first_of_proto_;
   std::vector<bool> emissive_proto_;
   std::vector<std::uint32_t> path_;
+  std::vector<Plane> walls_;
 };
 
 }  // namespace

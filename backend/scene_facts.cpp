@@ -20,6 +20,7 @@ MaterialFacts::Facts MaterialFacts::find(const ir::Scene& scene, ir::MaterialId 
   facts.known = true;
   facts.emissive = common.emission.texture.valid() || common.emission.value != ir::black;
   facts.transparent = common.opacity.texture.valid() || common.opacity.value < 1;
+  facts.clear = std::holds_alternative<ir::Dielectric>(material.kind);
   facts.textured_emission = common.emission.texture.valid() || facts.transparent;
   facts.two_sided = common.two_sided;
   if (const auto* mix = std::get_if<ir::Mix>(&material.kind)) {
@@ -28,6 +29,7 @@ MaterialFacts::Facts MaterialFacts::find(const ir::Scene& scene, ir::MaterialId 
       const Facts inner = find(scene, part);
       facts.emissive = facts.emissive || inner.emissive;
       facts.transparent = facts.transparent || inner.transparent;
+      facts.clear = facts.clear || inner.clear;
       facts.two_sided = facts.two_sided || inner.two_sided;
       facts.textured_emission = facts.textured_emission || inner.textured_emission ||
                                 (inner.emissive && mix->weight.texture.valid());

@@ -15,6 +15,8 @@ class MaterialFacts {
   [[nodiscard]] bool emissive(ir::MaterialId id) const { return facts_[id.value()].emissive; }
   // Opacity may be below 1 somewhere.
   [[nodiscard]] bool transparent(ir::MaterialId id) const { return facts_[id.value()].transparent; }
+  // Some light goes into the body below the surface, as into glass.
+  [[nodiscard]] bool clear(ir::MaterialId id) const { return facts_[id.value()].clear; }
   // Emission or opacity varies over the surface.
   [[nodiscard]] bool textured_emission(ir::MaterialId id) const {
     return facts_[id.value()].textured_emission;
@@ -30,6 +32,7 @@ class MaterialFacts {
     bool known = false;
     bool emissive = false;
     bool transparent = false;
+    bool clear = false;
     bool textured_emission = false;
     bool two_sided = false;
   };

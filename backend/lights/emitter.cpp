@@ -8,6 +8,17 @@
 namespace scenec::backend {
 namespace {
 
+// A cap is sampled by area, as its parts look much alike from everywhere; of deeper ones much would
+// be turned away.
+constexpr double deepest_cap = 0.5;  // of the radius
+
+double sphere_area(double radius) {
+  return 4 * pi * radius * radius;
+}
+bool is_sphere(const Emitter& e) {
+  return e.shape == EmitterShape::sphere || e.shape == EmitterShape::cut_sphere;
+}
+
 // Coordinates of a point made of `origin` and three terms carry a few roundings of their largest.
 Vector3 point_error(const Emitter& e) {
   return (abs(as_vector(e.origin)) + abs(e.a) + abs(e.b) + abs(e.c) +
@@ -41,9 +52,10 @@ AreaPoint tube_point(const Emitter& e, Sample2 u) {
 
 AreaPoint area_point(const Emitter& e, Sample2 u) {
   switch (e.shape) {
-    case EmitterShape::sphere: {
+    case EmitterShape::sphere:
+    case EmitterShape::cut_sphere: {
       const Vector3 w = sample_uniform_sphere(u).vector();
-      return {e.origin + w * e.radius, w, 1 / e.area};
+      return {e.origin + w * e.radius, w, 1 / sphere_area(e.radius)};
     }
     case EmitterShape::ellipsoid:
       return ellipsoid_point(e, u);
@@ -73,13 +85,36 @@ double area_pdf(const Emitter& e, const Point3& point, const UnitVector3& normal
     const double r = std::sqrt(x * x + y * y);
     return 1 / (2 * pi * length(cross(e.b * (x / r) - e.a * (y / r), e.c)));
   }
-  return 1 / e.area;
+  return 1 / sphere_area(e.radius);
 }
 
 double solid_angle_pdf(double area_density, const Vector3& way, const UnitVector3& normal) {
   const double distance = length(way);
   return emitter_detail::solid_angle_pdf(area_density, distance,
                                          std::fabs(dot(way, normal)) / distance);
+}
+
+// Whether only the cap can be seen from there: beyond doubt, as a place on the plane itself may
+// belong to either side.
+bool sees_cap_only(const Emitter& e, const Point3& from) {
+  if (e.shape != EmitterShape::cut_sphere) return false;
+  const Vector3 p = as_vector(from);
+  const double doubt = gamma(32) * (dot(abs(e.a), abs(p)) + std::fabs(e.b.y));
+  return dot(e.a, p) - e.b.y > doubt;
+}
+
+// A sphere's area is that of the cylinder round it (Archimedes): a point of the cap lies as deep
+// below its top as the square of a uniform point of the disk is far from the middle.
+AreaPoint cap_point(const Emitter& e, Sample2 u) {
+  const Sample2 disk = sample_concentric_disk(u);
+  const double height = e.b.x;
+  const double depth = height * (disk.u * disk.u + disk.v * disk.v);
+  const double across = std::sqrt(height * (2 * e.radius - depth));
+  const Frame frame = frame_about(UnitVector3::assume_unit(e.a));
+  const Vector3 w = (frame.x.vector() * (across * disk.u) + frame.y.vector() * (across * disk.v) +
+                     frame.z.vector() * (e.radius - depth)) /
+                    e.radius;
+  return {e.origin + w * e.radius, w, 1 / e.area};
 }
 
 // Squared sine of the half angle of the cone a sphere fills; nothing when `from` is not outside.
@@ -107,6 +142,23 @@ EmitterSample cone_sample(const Emitter& e, const Point3& from, double sin2, Sam
 
 }  // namespace
 
+void cut_by_plane(Emitter& e, const Vector3& normal, double offset) {
+  if (!is_sphere(e)) return;
+  const double size = length(normal);
+  const double from_center = (offset - dot(normal, as_vector(e.origin))) / size;
+  const double away = std::fabs(from_center);
+  // Enlarged by what rounding may have taken from it: no light may be left out.
+  const double doubt =
+      gamma(32) * (max_abs(as_vector(e.origin)) + std::fabs(offset / size) + e.radius);
+  const double height = e.radius - away + doubt;
+  if (!(height > doubt) || !(height <= deepest_cap * e.radius)) return;
+  if (e.shape == EmitterShape::cut_sphere && e.b.x <= height) return;
+  const double side = from_center > 0 ? 1 : -1;
+  e.shape = EmitterShape::cut_sphere;
+  e.a = normalized(normal * side).vector();
+  e.b = {height, offset / size * side, 0};
+}
+
 void measure(Emitter& e) {
   switch (e.shape) {
     case EmitterShape::triangle:
@@ -119,7 +171,10 @@ void measure(Emitter& e) {
       e.area = pi * length(cross(e.a, e.b));
       break;
     case EmitterShape::sphere:
-      e.area = 4 * pi * e.radius * e.radius;
+      e.area = sphere_area(e.radius);
+      break;
+    case EmitterShape::cut_sphere:
+      e.area = 2 * pi * e.radius * e.b.x;
       break;
     case EmitterShape::ellipsoid:
     case EmitterShape::tube: {
@@ -144,14 +199,15 @@ void measure(Emitter& e) {
 namespace emitter_detail {
 
 bool sample_curved(const Emitter& e, const Point3& from, Sample2 u, EmitterSample& out) {
-  if (e.shape == EmitterShape::sphere) {
+  const bool cap = sees_cap_only(e, from);
+  if (!cap && is_sphere(e)) {
     if (const auto sin2 = cone_of(e, from)) {
       out = cone_sample(e, from, *sin2, u);
       out.error = e.error;
       return true;
     }
   }
-  const AreaPoint p = area_point(e, u);
+  const AreaPoint p = cap ? cap_point(e, u) : area_point(e, u);
   const Vector3 way = p.point - from;
   if (!(p.pdf > 0) || !(length_squared(way) > 0)) return false;
   out.point = p.point;
@@ -164,7 +220,11 @@ bool sample_curved(const Emitter& e, const Point3& from, Sample2 u, EmitterSampl
 
 double pdf_curved(const Emitter& e, const Point3& from, const Point3& point,
                   const UnitVector3& normal) {
-  if (e.shape == EmitterShape::sphere) {
+  if (sees_cap_only(e, from)) {
+    const bool on_cap = dot(e.a, point - e.origin) >= e.radius - e.b.x;
+    return on_cap ? backend::solid_angle_pdf(1 / e.area, point - from, normal) : 0;
+  }
+  if (is_sphere(e)) {
     if (const auto sin2 = cone_of(e, from)) return pdf_uniform_cone(*sin2);
   }
   return backend::solid_angle_pdf(area_pdf(e, point, normal), point - from, normal);

@@ -3,12 +3,14 @@
 //
 // Domain:     area > 0; any reference point.
 // Method:     uniform in area, except spheres seen from outside: uniform in the cone they fill, by
-//             the form of 1 - cos that keeps its digits for far ones (numerics anchors, row 7).
+//             the form of 1 - cos that keeps its digits for far ones (numerics anchors, row 7). Of
+//             a sphere that an opaque plane cuts, places on the side of the smaller part can only
+//             see that part: there it alone is aimed at, uniform in area.
 // Error:      the sampled point's distance from the surface is bounded by `error`.
 // Degenerate: reference in the plane of a flat piece: density 0, no sample; reference on or inside
-// a
-//             sphere: uniform in area.
-// Proof:      tests/unit/backend/lights/lights_test.cpp (P03-P05, P08).
+//             a sphere: uniform in area; reference on the plane that cuts a sphere, to rounding: as
+//             if there were no plane.
+// Proof:      tests/unit/backend/lights/lights_test.cpp (P03-P05, P08), cut_sphere_test.cpp.
 #pragma once
 
 #include <cmath>
@@ -29,6 +31,7 @@ enum class EmitterShape : std::uint8_t {
   parallelogram,  // corner, two edges
   ellipse,        // centre, two conjugate half axes
   sphere,         // centre; `radius`
+  cut_sphere,     // centre; `radius`; see cut_by_plane
   ellipsoid,      // centre, images of the three unit vectors
   tube,           // base centre, two conjugate half axes of the base, way to the top
 };
@@ -53,7 +56,14 @@ struct Emitter {
          shape == EmitterShape::ellipse;
 }
 
-// Computes `area` (0 for what is too small to be chosen), `normal` and `error`.
+// The sphere, where an opaque plane n . p = offset leaves a cap of at most half its radius on one
+// side: then `a` is the unit way to the cap, `b` = {height of the cap, a . p of the plane, 0}. The
+// smallest cap stays. Nothing happens where the plane passes the sphere by, or cuts deeper: a cone
+// is as good there.
+void cut_by_plane(Emitter& sphere, const Vector3& normal, double offset);
+
+// Computes `area` (of a cut sphere its cap; 0 for what is too small to be chosen),
+// `normal` and `error`.
 void measure(Emitter& emitter);
 
 struct EmitterSample {

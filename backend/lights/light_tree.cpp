@@ -105,6 +105,12 @@ LightCluster cluster_of(const Emitter& e) {
     case EmitterShape::sphere:
       grow(e.origin, {e.radius, e.radius, e.radius});
       break;
+    case EmitterShape::cut_sphere: {
+      // The cap: its power is counted, and what the other side sees is left to its cone.
+      const double rim = std::sqrt(e.b.x * (2 * e.radius - e.b.x));
+      grow(e.origin + e.a * (e.radius - e.b.x / 2), {rim, rim, rim});
+      break;
+    }
     case EmitterShape::ellipsoid:
       grow(e.origin, reach_of(e.a, e.b, e.c));
       break;

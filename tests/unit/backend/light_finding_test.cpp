@@ -121,6 +121,11 @@ std::vector<Make> scenes() {
                                     true,
                                     ir::white});
       },
+      [=](SceneKit& kit) {  // a ball of which a wall hides all but a cap
+        ball(kit, kit.matt(0.8));
+        kit.place(ir::Plane{{0, -1, 0}, {-2.5}}, kit.matt(0.5));
+        kit.place(ir::Sphere{{0.5, 12.3, 0}, {10}}, kit.glowing(6));
+      },
       [=](SceneKit& kit) {  // a disk close to the floor, light between surfaces
         ball(kit, kit.matt(0.9));
         kit.light(ir::DiskLight{{1.2, 0.7, 1}, {-0.3, -1, 0}, {0.5}, 3.0, {}, true, ir::white});

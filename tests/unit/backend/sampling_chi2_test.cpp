@@ -141,13 +141,15 @@ TEST(ChiSquare, VisibleFacetsDownToAlphaOfAHundredth) {
 }
 
 TEST(ChiSquare, LightsSeenFromAPlace) {
-  constexpr int trials = 4;
+  constexpr int trials = 5;
   ThreadPool pool(1);
   const Point3 from{0.3, -0.4, 0.2};
-  const auto check = [&](Emitter e, const auto& shape, const std::string& name) {
+  const auto check = [&](Emitter e, const auto& shape, const std::string& name,
+                         const Plane& wall = {{0, 1, 0}, 50}) {
     measure(e);
     SceneAccel world;
     world.add(0, shape);
+    world.add(1, wall);
     world.build(pool);
     ChiSquareCase c;
     c.sample = [&](Sample2 u, double, Sample2& cell) {
@@ -159,7 +161,7 @@ TEST(ChiSquare, LightsSeenFromAPlace) {
     c.density = [&](Sample2 cell) {
       Hit hit;
       const Vector3 d = direction_at(cell);
-      if (!world.intersect({from, d}, hit)) return 0.0;
+      if (!world.intersect({from, d}, hit) || hit.item != 0) return 0.0;
       return pdf_emitter(e, from, hit.point, hit.geometric_normal) * sphere_area;
     };
     c.columns = 40;
@@ -172,6 +174,12 @@ TEST(ChiSquare, LightsSeenFromAPlace) {
   e.radius = 0.7;
   e.shape = EmitterShape::sphere;
   check(e, Sphere{e.origin, e.radius}, "sphere");
+  // What a plane leaves of a ball: its cap, all of whose points face this place.
+  Emitter cut = e;
+  const Plane ceiling{{0, 1, 0}, 0.9};
+  cut_by_plane(cut, as_vector(ceiling.normal), ceiling.offset);
+  EXPECT_EQ(cut.shape, EmitterShape::cut_sphere);
+  check(cut, Sphere{e.origin, e.radius}, "cut sphere", ceiling);
   e.a = {1.5, 0.1, 0.2};
   e.b = {-0.1, 0.4, 1.6};
   e.shape = EmitterShape::parallelogram;
