@@ -1,7 +1,8 @@
 // Whether a picture is what its file says: rendered from this scene, with these settings, with so
 // many samples and such noise. The scene is rendered again with other random numbers — the whole
 // frame with half the samples, and tiles spread over a quarter of its area with all of them — and
-// every difference must be explained by the noise of both (backend/film/agreement.hpp).
+// every difference must be explained by the noise of both (backend/film/agreement.hpp). What looks
+// worst is then rendered many times (backend/second_look.hpp).
 #pragma once
 
 #include <functional>
@@ -27,6 +28,8 @@ struct Question {
   double log_p = 0;       // of all places together
   std::size_t tests = 0;
   std::vector<Disagreement> worst;  // in the picture's pixels, worst first
+  // Alone enough to refuse the picture, for as many questions as there are.
+  [[nodiscard]] bool refuses() const;
 };
 struct Verification {
   std::vector<Question> questions;

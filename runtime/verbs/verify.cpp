@@ -44,9 +44,11 @@ std::vector<std::pair<const backend::Question*, backend::Disagreement>> worst_pl
     const backend::Verification& v) {
   std::vector<std::pair<const backend::Question*, backend::Disagreement>> all;
   for (const backend::Question& q : v.questions) {
+    if (!q.refuses()) continue;
     const double limit = std::log(backend::false_alarm) - std::log(static_cast<double>(q.tests));
+    // Many places together may say what none says alone.
     for (const backend::Disagreement& d : q.worst)
-      if (d.log_p < limit) all.emplace_back(&q, d);
+      if (&d == q.worst.data() || d.log_p < limit) all.emplace_back(&q, d);
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.second.log_p < b.second.log_p; });
@@ -71,10 +73,8 @@ std::string table_of(const backend::Verification& v, std::uint64_t seed) {
       "seed {}\n",
       v.frame_samples, v.tiles, 100 * v.tile_area, v.tile_samples, seed);
   for (const backend::Question& q : v.questions) {
-    const bool is_bad = q.log_p + std::log(static_cast<double>(v.questions.size())) <
-                        std::log(backend::false_alarm);
     text += fmt::format("  {:<18}{:>8} test{} p {:<10}{}\n", q.name, q.tests,
-                        q.tests == 1 ? " " : "s", p_text(q.log_p), is_bad ? q.says : "");
+                        q.tests == 1 ? " " : "s", p_text(q.log_p), q.refuses() ? q.says : "");
   }
   for (const auto& [question, d] : worst_places(v)) {
     text +=

@@ -109,6 +109,11 @@ TEST(Verify, SaysWhatCannotBeVerified) {
   const ChildResult png = p.run({"verify", "a.png", "scene.sdl"});
   EXPECT_EQ(png.exit_code, 3);
   EXPECT_THAT(png.err, HasSubstr("only an EXR file"));
+  p.render({"-o", "adaptive.exr", "--adaptive"});
+  const ChildResult adaptive = p.run({"verify", "adaptive.exr", "scene.sdl"});
+  EXPECT_EQ(adaptive.exit_code, 3);
+  EXPECT_THAT(adaptive.err,
+              HasSubstr("it was sampled adaptively: its pixels have unequal samples"));
   p.render({"-o", "a.exr"});
   const ChildResult nameless = p.run({"verify", "a.exr"});
   EXPECT_EQ(nameless.exit_code, 2);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "backend/film/mirrored_tests.hpp"
 #include "backend/film/replicates.hpp"
 
 namespace scenec::backend {
