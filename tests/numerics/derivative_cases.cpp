@@ -1,5 +1,5 @@
 // What a hit says of its surface: the point within its error, inside the bounds, coordinates and
-// their derivatives (G27 - G29), and normals that let no light through (S12, S13).
+// their derivatives (G27 - G29).
 #include <gtest/gtest.h>
 
 #include <algorithm>

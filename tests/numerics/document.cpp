@@ -12,6 +12,7 @@
 
 #include "tests/numerics/catalog.hpp"
 #include "tests/numerics/finding.hpp"
+#include "tests/numerics/light_cases.hpp"
 #include "tests/numerics/plot.hpp"
 
 namespace scenec::numerics {
@@ -169,6 +170,17 @@ void settle(const std::filesystem::path& path, const std::string& want,
       path.filename().string(), stale, fresh));
 }
 
+// What stands between two marks; false: they are not there.
+bool replace_part(std::string& text, std::string_view begin, std::string_view end,
+                  const std::string& part) {
+  const std::size_t from = text.find(begin);
+  const std::size_t to = text.find(end);
+  if (from == std::string::npos || to == std::string::npos || to < from) return false;
+  const std::size_t first = from + begin.size();
+  text.replace(first, to - first, part + "\n");
+  return true;
+}
+
 }  // namespace
 
 void record(const Finding& finding) {
@@ -186,19 +198,19 @@ void record(const Series& series) {
 
 bool document_agrees(const std::filesystem::path& docs, std::vector<std::string>& complaints) {
   const Results results = results_of_run();
-  constexpr std::string_view begin = "<!-- generated: scenec-numerics -->\n";
-  constexpr std::string_view end = "<!-- end of the generated part -->\n";
   const std::filesystem::path page = docs / "numerics.md";
-  const std::string text = content_of(page);
-  const std::size_t from = text.find(begin);
-  const std::size_t to = text.find(end);
-  if (from == std::string::npos || to == std::string::npos || to < from) {
-    complaints.push_back("numerics.md has no marks for its generated part");
+  std::string text = content_of(page);
+  complain_of_strangers(results, complaints);
+  const bool marked =
+      replace_part(text, "<!-- generated: scenec-numerics -->\n",
+                   "<!-- end of the generated part -->\n", generated_part(results, complaints)) &&
+      replace_part(text, "<!-- generated: cases of light -->\n",
+                   "<!-- end of the cases of light -->\n", light_case_table());
+  if (!marked) {
+    complaints.push_back("numerics.md has no marks for its generated parts");
     return false;
   }
-  complain_of_strangers(results, complaints);
-  const std::string part = generated_part(results, complaints);
-  settle(page, text.substr(0, from + begin.size()) + part + "\n" + text.substr(to), complaints);
+  settle(page, text, complaints);
   for (const Plot& plot : plots()) {
     const auto series = results.series.find(std::string(plot.name));
     if (series == results.series.end())

@@ -377,7 +377,7 @@ SceneKit busy_scene() {
 TEST(render, bytes_do_not_depend_on_threads) {  // D01
   for (const ir::Method method : {ir::Method::path, ir::Method::whitted, ir::Method::phong}) {
     std::vector<Picture> pictures;
-    for (const unsigned threads : {1U, 2U, 7U}) {
+    for (const unsigned threads : {1U, 2U, 7U, 64U}) {
       SceneKit kit = busy_scene();
       kit.settings.method = method;
       pictures.push_back(render(kit, threads));

@@ -119,33 +119,6 @@ TEST(bsdf, nothing_gains_energy) {
   }
 }
 
-TEST(bsdf, diffuse_and_facets_are_reciprocal) {  // S09, without the compensation for lost light
-  Bsdf b;
-  b.kind = BsdfKind::rough_glass;
-  b.alpha = 0.4;
-  b.ior = 1.5;
-  b.specular = {1, 1, 1};
-  const double angles[3][2] = {{0.9, 0.3}, {0.5, 0.8}, {0.2, 0.6}};
-  for (const auto& pair : angles) {
-    const Bsdf there = prepared(b, pair[0]);
-    const Bsdf back = prepared(b, pair[1]);
-    const double f = evaluate(there, back.wo).f_cos.r / back.wo.z;
-    const double g = evaluate(back, there.wo).f_cos.r / there.wo.z;
-    EXPECT_NEAR(f, g, 1e-12 * f);
-    // Through the surface: f(wo, wi) n_i^2 ... is symmetric once the scaling by the index is
-    // undone.
-    Bsdf inner = b;
-    inner.ior = 1 / 1.5;
-    const Vector3 down{-back.wo.x, 0, -back.wo.z};
-    const double through = evaluate(there, down).f_cos.r / std::fabs(down.z) * 1.5 * 1.5;
-    // The same pair of directions seen from below, with the frame turned round.
-    Bsdf from_below = prepared(inner, pair[1]);
-    const Vector3 other{-there.wo.x, 0, -there.wo.z};
-    const double reverse = evaluate(from_below, other).f_cos.r / std::fabs(other.z);
-    EXPECT_NEAR(through, reverse * 1, 1e-9 * (through + 1)) << pair[0];
-  }
-}
-
 TEST(bsdf, light_never_passes_the_geometric_surface) {  // S12
   for (Case& c : cases(0.4)) {
     // A shading normal 60 degrees off.
@@ -160,14 +133,6 @@ TEST(bsdf, light_never_passes_the_geometric_surface) {  // S12
       }
     }
   }
-}
-
-TEST(bsdf, black_surface_ends_the_path) {  // S11
-  Bsdf b;
-  b.kind = BsdfKind::diffuse;
-  EXPECT_TRUE(is_black(sample_bsdf(prepared(b, 0.5), 0.5, {0.5, 0.5}).weight));
-  b.kind = BsdfKind::phong;
-  EXPECT_TRUE(is_black(sample_bsdf(prepared(b, 0.5), 0.5, {0.5, 0.5}).weight));
 }
 
 }  // namespace
