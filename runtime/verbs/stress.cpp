@@ -9,16 +9,17 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "backend/film/agreement.hpp"
 #include "backend/image/write_image.hpp"
 #include "backend/probe.hpp"
 #include "backend/render_session.hpp"
 #include "base/text.hpp"
 #include "ir/similarity.hpp"
 #include "runtime/output.hpp"
+#include "runtime/ready_scene.hpp"
 #include "runtime/session.hpp"
 #include "runtime/settings.hpp"
 #include "runtime/signals.hpp"
+#include "runtime/stress_report.hpp"
 #include "runtime/verbs.hpp"
 
 namespace scenec::runtime {
@@ -36,39 +37,19 @@ constexpr double same_share = 1e-3;
 
 struct Variant {
   std::string_view name;
+  std::string_view what;
   ir::Similarity by;
   bool jittered = false;
 };
 constexpr double far = 1e4;
 constexpr double turn = 0.6;  // rad; no symmetry of anything
 const Variant variants[] = {
-    {"moved", {.scale = 1, .turn = {}, .move = {far, far, far}}},
-    {"large", {.scale = 1e3, .turn = {}, .move = {}}},
-    {"small", {.scale = 1e-3, .turn = {}, .move = {}}},
-    {"turned", {.scale = 1, .turn = Angle{turn}, .move = {}}},
-    {"jittered", {}, true},
+    {"moved", "moved by 1e4 m along every axis", {.scale = 1, .turn = {}, .move = {far, far, far}}},
+    {"large", "a thousand times as large", {.scale = 1e3, .turn = {}, .move = {}}},
+    {"small", "a thousandth as large", {.scale = 1e-3, .turn = {}, .move = {}}},
+    {"turned", "turned about the y axis by 0.6 rad", {.scale = 1, .turn = Angle{turn}, .move = {}}},
+    {"jittered", "every item displaced by an ulp", {}, true},
 };
-constexpr std::string_view what[] = {"moved by 1e4 m along every axis", "a thousand times as large",
-                                     "a thousandth as large", "turned about the y axis by 0.6 rad",
-                                     "every item displaced by an ulp"};
-
-// What one variant has come to.
-struct Outcome {
-  backend::Agreement agreement;
-  double same = 0;  // share of the pixels
-  bool agrees = true;
-  struct Place {
-    backend::Disagreement block;
-    std::int64_t x = 0, y = 0;  // the pixel that is furthest off
-    std::string name;           // of the item there
-    std::string line;
-  };
-  std::vector<Place> places;
-};
-
-std::string p_text(double log_p) {
-  return log_p < -600 ? std::string("0") : fmt::format("{:.2g}", std::exp(log_p));
-}
 
 std::string place_text(const SourceMap& sources, Span span) {
   const Span written = sources.resolve(span);
@@ -89,19 +70,16 @@ class StressRun {
   ExitCode run() {
     if (!options_.output.empty() && !make_folder(options_.output, environment_))
       return ExitCode::file_error;
-    const auto scene = session_.load_and_compile(pool_);
-    if (!scene) return session_.finish(environment_);
-    auto settings = settings_of(options_, *scene, environment_);
-    if (!settings) return ExitCode::usage;
-    const backend::PreparedPtr prepared =
-        backend::prepare(*scene, session_.files(), pool_, session_.sink());
-    if (const ExitCode code = session_.finish(environment_); code != ExitCode::ok || !prepared)
+    ReadyScene ready;
+    if (const ExitCode code = make_ready(ready, session_, options_, environment_, pool_);
+        code != ExitCode::ok)
       return code;
-    if (!options_.size) settings->size = small_size(settings->size);
-    settings->region.reset();
-    settings->aovs = {ir::Aov::variance};
+    ir::RenderSettings& settings = *ready.settings;
+    if (!options_.size) settings.size = small_size(settings.size);
+    settings.region.reset();
+    settings.aovs = {ir::Aov::variance};
     signals_.allow_graceful_stop();
-    return compare_all(*scene, *settings, *prepared);
+    return compare_all(*ready.scene, settings, *ready.prepared);
   }
 
  private:
@@ -117,12 +95,14 @@ class StressRun {
       tell(i);
       const auto picture = render_variant(variants[i], settings);
       if (!picture) return stopped();
-      const Outcome outcome = compare(*base, *picture, *built, scene, settings);
+      StressOutcome outcome = compare(*base, *picture, *built, scene, settings);
+      outcome.name = variants[i].name;
+      outcome.what = variants[i].what;
       all_agree = all_agree && outcome.agrees;
       if (options_.json)
-        rows.push_back(json_of(i, outcome));
+        rows.push_back(json_of(outcome));
       else
-        environment_.out << text_of(i, outcome);
+        environment_.out << text_of(outcome);
       if (!options_.output.empty() && !write(variants[i], *base, *picture))
         return ExitCode::file_error;
     }
@@ -139,7 +119,7 @@ class StressRun {
   void tell(std::size_t variant) const {
     if (options_.progress == ProgressStyle::none) return;
     environment_.err << fmt::format("{} of {}: {}\n", variant + 1, std::size(variants),
-                                    what[variant])
+                                    variants[variant].what)
                      << std::flush;
   }
 
@@ -166,7 +146,7 @@ class StressRun {
     else
       ir::transform(*scene, variant.by);
     const backend::PreparedPtr prepared =
-        backend::prepare(*scene, again.files(), pool_, again.sink());
+        backend::prepare(*scene, again.files(), pool_, again.sink(), nullptr, options_.limits);
     if (!prepared) return std::nullopt;
     const backend::RenderScenePtr built =
         backend::build(*prepared, pool_, {.precision = options_.precision});
@@ -183,10 +163,10 @@ class StressRun {
     return true;
   }
 
-  Outcome compare(const backend::NoisyPicture& base, const backend::NoisyPicture& other,
-                  const backend::RenderScene& built, const ir::Scene& scene,
-                  const ir::RenderSettings& settings) {
-    Outcome outcome;
+  StressOutcome compare(const backend::NoisyPicture& base, const backend::NoisyPicture& other,
+                        const backend::RenderScene& built, const ir::Scene& scene,
+                        const ir::RenderSettings& settings) {
+    StressOutcome outcome;
     for (const std::size_t side : sides) join(outcome.agreement, compare_blocks(base, other, side));
     const std::size_t pixels = base.width * base.height;
     std::size_t same = 0;
@@ -197,7 +177,7 @@ class StressRun {
     const double limit_of_place = limit - std::log(static_cast<double>(outcome.agreement.tests));
     for (const backend::Disagreement& d : outcome.agreement.worst) {
       if (d.log_p >= limit_of_place) break;
-      Outcome::Place place = place_of(d, base, other);
+      StressOutcome::Place place = place_of(d, base, other);
       name_item(place, built, scene, settings);
       const bool is_known =
           std::any_of(outcome.places.begin(), outcome.places.end(),
@@ -207,9 +187,10 @@ class StressRun {
     return outcome;
   }
 
-  static Outcome::Place place_of(const backend::Disagreement& d, const backend::NoisyPicture& base,
-                                 const backend::NoisyPicture& other) {
-    Outcome::Place place;
+  static StressOutcome::Place place_of(const backend::Disagreement& d,
+                                       const backend::NoisyPicture& base,
+                                       const backend::NoisyPicture& other) {
+    StressOutcome::Place place;
     place.block = d;
     double furthest = -1;
     for (std::int64_t y = d.place.y0; y < d.place.y1; ++y) {
@@ -229,8 +210,8 @@ class StressRun {
     return place;
   }
 
-  void name_item(Outcome::Place& place, const backend::RenderScene& built, const ir::Scene& scene,
-                 const ir::RenderSettings& settings) const {
+  void name_item(StressOutcome::Place& place, const backend::RenderScene& built,
+                 const ir::Scene& scene, const ir::RenderSettings& settings) const {
     const auto hit = backend::probe(built, settings, place.x, place.y);
     if (!hit || hit->path.empty()) return;
     const auto& step = hit->path.back();
@@ -239,38 +220,6 @@ class StressRun {
     if (item.name.valid()) place.name = scene.names[item.name];
     if (item.origin.valid())
       place.line = place_text(session_.sources(), scene.origins[item.origin].span);
-  }
-
-  static std::string text_of(std::size_t variant, const Outcome& o) {
-    std::string text = fmt::format("{:<10}{:<10} p {:<9} {:5.1f} % of the pixels the same; {}\n",
-                                   variants[variant].name, o.agrees ? "agrees" : "DISAGREES",
-                                   p_text(o.agreement.log_p), 100 * o.same, what[variant]);
-    for (const Outcome::Place& p : o.places) {
-      text += fmt::format("  {},{}: {:.4g} and {:.4g} over the block, {:.1f} sigma{}{}\n", p.x, p.y,
-                          p.block.first, p.block.second, p.block.deviations,
-                          p.line.empty() ? std::string() : "; " + printable(p.line, 200),
-                          p.name.empty() ? std::string() : " `" + printable(p.name) + "`");
-    }
-    return text;
-  }
-
-  static Json json_of(std::size_t variant, const Outcome& o) {
-    Json row{{"name", variants[variant].name},
-             {"what", what[variant]},
-             {"agrees", o.agrees},
-             {"log_p", std::max(o.agreement.log_p, -1e300)},
-             {"same_pixels", o.same}};
-    row["places"] = Json::array();
-    for (const Outcome::Place& p : o.places) {
-      row["places"].push_back({{"x", p.x},
-                               {"y", p.y},
-                               {"as_written", p.block.first},
-                               {"changed", p.block.second},
-                               {"sigma", std::min(p.block.deviations, 1e300)},
-                               {"item", p.name},
-                               {"line", p.line}});
-    }
-    return row;
   }
 
   // Changed minus as written, and that over its standard deviation.

@@ -15,6 +15,7 @@
 #include "runtime/cli.hpp"
 #include "runtime/output.hpp"
 #include "runtime/progress.hpp"
+#include "runtime/ready_scene.hpp"
 #include "runtime/session.hpp"
 #include "runtime/settings.hpp"
 #include "runtime/signals.hpp"
@@ -60,18 +61,15 @@ class StudyRun {
 
   ExitCode run() {
     if (!make_folder(directory_.string(), environment_)) return ExitCode::file_error;
-    const auto scene = session_.load_and_compile(pool_);
-    if (!scene) return session_.finish(environment_);
-    auto settings = settings_of(options_, *scene, environment_);
-    if (!settings) return ExitCode::usage;
-    const backend::PreparedPtr prepared =
-        backend::prepare(*scene, session_.files(), pool_, session_.sink());
-    if (const ExitCode code = session_.finish(environment_); code != ExitCode::ok || !prepared)
+    ReadyScene ready;
+    if (const ExitCode code = make_ready(ready, session_, options_, environment_, pool_);
+        code != ExitCode::ok)
       return code;
-    if (!options_.size) settings->size = small_size(settings->size);
-    if (!options_.region) settings->region.reset();
-    settings->stop = {};
-    return measure(*scene, *settings, *prepared);
+    ir::RenderSettings& settings = *ready.settings;
+    if (!options_.size) settings.size = small_size(settings.size);
+    if (!options_.region) settings.region.reset();
+    settings.stop = {};
+    return measure(*ready.scene, settings, *ready.prepared);
   }
 
  private:
