@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "backend/render_session.hpp"
+#include "tests/accuracy/true_error.hpp"
 #include "tests/support/built_scene.hpp"
 #include "tests/support/paths.hpp"
 
@@ -176,6 +178,99 @@ TEST(Adaptive, SlowNeedsFewerSamples) {
     ++count;
     EXPECT_LE(b.samples, 1.05 * a.samples) << name;
   }
+  std::printf("geometric mean: samples %.2f  time %.2f\n", std::exp(log_samples / count),
+              std::exp(log_seconds / count));
+  EXPECT_GE(std::exp(log_samples / count), 1.3);
+}
+
+// Even renders: their mean is the reference, and each is judged by the mean of the others.
+struct Even {
+  test::Reference reference;
+  double error = 0;  // mean square of them all
+  double seconds = 0;
+};
+Even even_renders(const Subject& subject, int count, std::int64_t samples, ThreadPool& pool) {
+  Even even;
+  std::vector<std::vector<float>> pictures;
+  const double start = cpu_seconds();
+  for (int seed = 1; seed <= count; ++seed) {
+    ir::RenderSettings settings;
+    backend::RenderSession session =
+        session_of(subject, 100 + seed, SampleSpread::even, pool, settings);
+    session.advance(samples);
+    pictures.push_back(session.picture().rgb);
+    even.reference.add(pictures.back());
+  }
+  even.seconds = (cpu_seconds() - start) / count;
+  double squares = 0;
+  for (const auto& rgb : pictures) {
+    const double error = test::true_error(rgb, even.reference, true).error;
+    squares += error * error / count;
+  }
+  even.error = std::sqrt(squares);
+  return even;
+}
+
+// Where an adaptive render's true error falls below that of the even ones.
+Reached reach_truly(const Subject& subject, const Even& even, std::int64_t seed, std::int64_t cap,
+                    ThreadPool& pool) {
+  ir::RenderSettings settings;
+  backend::RenderSession session =
+      session_of(subject, seed, SampleSpread::adaptive, pool, settings);
+  Reached before;
+  Reached now;
+  double looking = 0;
+  const double start = cpu_seconds();
+  while (session.samples() < cap) {
+    const std::int64_t done = session.samples();
+    session.advance(done < 16 ? 16 : std::max<std::int64_t>(8, done / 8 / 4 * 4));
+    const double at = cpu_seconds();
+    const backend::Picture picture = session.picture();
+    now = {mean_samples(picture), at - start - looking,
+           test::true_error(picture.rgb, even.reference, false).error};
+    looking += cpu_seconds() - at;
+    if (now.error <= even.error && before.samples > 0) {
+      const double part = std::log(before.error / even.error) / std::log(before.error / now.error);
+      now.samples = before.samples * std::pow(now.samples / before.samples, part);
+      now.seconds = before.seconds * std::pow(now.seconds / before.seconds, part);
+      return now;
+    }
+    before = now;
+  }
+  return now;
+}
+
+// The same question with many samples, where 1 % is reached or near, and by the true error instead
+// of the renderer's own estimate.
+TEST(Adaptive, SlowNeedsFewerSamplesByTheTrueError) {
+  constexpr const char* names[] = {"knot",    "glossy-row", "globe",      "cornell",
+                                   "mapping", "leaves",     "still-life", "caustic-glass"};
+  constexpr std::int64_t samples = 2048;
+  constexpr int renders = 4;
+  ThreadPool pool;
+  double log_samples = 0;
+  double log_seconds = 0;
+  for (const char* const name : names) {
+    const Subject subject = subject_of(name, 64, 48, pool);
+    ASSERT_TRUE(subject.built) << name;
+    const Even even = even_renders(subject, renders, samples, pool);
+    double mean = 0;
+    double seconds = 0;
+    for (const std::int64_t seed : {1, 2}) {
+      const Reached one = reach_truly(subject, even, seed, 2 * samples, pool);
+      mean += one.samples / 2;
+      seconds += one.seconds / 2;
+    }
+    std::printf(
+        "%-16s true error %6.2f %%  even %lld  adaptive %6.1f  ratio %.2f  time ratio %.2f\n", name,
+        100 * even.error, static_cast<long long>(samples), mean,
+        static_cast<double>(samples) / mean, even.seconds / seconds);
+    std::fflush(stdout);
+    log_samples += std::log(static_cast<double>(samples) / mean);
+    log_seconds += std::log(even.seconds / seconds);
+    EXPECT_LE(mean, 1.05 * static_cast<double>(samples)) << name;
+  }
+  const auto count = static_cast<double>(std::size(names));
   std::printf("geometric mean: samples %.2f  time %.2f\n", std::exp(log_samples / count),
               std::exp(log_seconds / count));
   EXPECT_GE(std::exp(log_samples / count), 1.3);

@@ -257,10 +257,10 @@ constexpr Move moves[] = {
     {cornell, "0.23m", "0.26m"},
     {still_life, "[-0.1m, 0.04m, 0.24m]", "[-0.11m, 0.04m, 0.24m]"},
     {still_life, "[-0.1m, 0.04m, 0.24m]", "[-0.12m, 0.04m, 0.24m]"},
-    {glossy_row, "7cm, 14cm]", "7.2cm, 14cm]"},
-    {glossy_row, "7cm, 14cm]", "7cm, 14.5cm]"},
-    {vases, "[14cm, 0m, 16cm]", "[14.5cm, 0m, 16cm]"},
-    {vases, "[14cm, 0m, 16cm]", "[15cm, 0m, 16cm]"},
+    {glossy_row, "7cm, 14cm]", "9cm, 14cm]"},
+    {glossy_row, "7cm, 14cm]", "7cm, 16cm]"},
+    {vases, "[14cm, 0m, 16cm]", "[17cm, 0m, 16cm]"},
+    {vases, "[14cm, 0m, 16cm]", "[20cm, 0m, 16cm]"},
 };
 
 TEST(Verify, SlowMovedObjectsAreFound) {
