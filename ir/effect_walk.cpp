@@ -95,6 +95,8 @@ class MaterialTraits {
     const bool clear = !folding_.is_black(m.refract);
     add(traits, Trait::clear, clear);
     add(traits, Trait::mirror, clear && m.ior != 1);
+    add(traits, Trait::bends, clear && m.ior != 1);
+    add(traits, Trait::mirror_within, clear && m.ior == 1);
   }
   void lobes(const Mirror& m, Traits& traits) const {
     add(traits, Trait::mirror, !folding_.is_black(m.color));
@@ -102,9 +104,10 @@ class MaterialTraits {
   void lobes(const Dielectric& m, Traits& traits) const {
     add(traits, Trait::absorbing, m.absorption != black);
     add(traits, Trait::clear);
-    if (m.ior == 1) return;
-    add(traits, Trait::mirror, can_be_smooth(m.roughness));
-    add(traits, Trait::glossy, can_be_rough(m.roughness));
+    const bool bends = m.ior != 1;
+    add(traits, Trait::bends, bends);
+    add(traits, bends ? Trait::mirror : Trait::mirror_within, can_be_smooth(m.roughness));
+    add(traits, bends ? Trait::glossy : Trait::glossy_within, can_be_rough(m.roughness));
   }
   void lobes(const Conductor& m, Traits& traits) const {
     // Black f0 too: at grazing angles everything reflects.
@@ -135,6 +138,7 @@ class Walker {
   EffectWalk walk() {
     for (const Item& item : scene_.items) place(item, {});
     lights();
+    settle_bodies();
     return std::move(walk_);
   }
 
@@ -142,6 +146,19 @@ class Walker {
   struct Counts {
     std::uint64_t placements = 0, flat = 0, clear = 0, emitters = 0;
   };
+
+  // A bubble of index 1 does nothing in air, and everything in glass.
+  void settle_bodies() {
+    if (walk_.clear_placements < 2 || !walk_.of(Trait::bends).present) return;
+    const auto take = [&](Trait trait, Trait within) {
+      TraitWitness& found = walk_.traits[static_cast<std::size_t>(trait)];
+      if (found.present || !walk_.of(within).present) return;
+      found = walk_.of(within);
+      found.within = true;
+    };
+    take(Trait::mirror, Trait::mirror_within);
+    take(Trait::glossy, Trait::glossy_within);
+  }
 
   static std::uint64_t sum(std::uint64_t a, std::uint64_t b) {
     return std::min(a + b, EffectWalk::many);
@@ -174,11 +191,11 @@ class Walker {
     const Traits& traits = traits_.of(material);
     for (std::size_t i = 0; i < trait_count; ++i)
       if (traits[i] && !walk_.traits[i].present)
-        walk_.traits[i] = {true, source_of(material, static_cast<Trait>(i)), witness};
+        walk_.traits[i] = {true, source_of(material, static_cast<Trait>(i)), witness, false};
     Counts c;
     c.placements = 1;
     c.flat = is_flat(item) ? 1 : 0;
-    c.clear = has(traits, Trait::clear) ? 1 : 0;
+    c.clear = !has(traits, Trait::clear) ? 0 : may_nest(item) ? 2 : 1;
     c.emitters = has(traits, Trait::emissive) ? pieces_of(item) : 0;
     return c;
   }
@@ -212,6 +229,12 @@ class Walker {
            std::holds_alternative<Id<Triangle>>(item.shape) ||
            std::holds_alternative<Id<Quad>>(item.shape) ||
            std::holds_alternative<Id<Disk>>(item.shape);
+  }
+  // Shapes that are not convex by kind: a mesh may hold one shell within another, an outline cross
+  // itself.
+  static bool may_nest(const Item& item) {
+    return std::holds_alternative<Id<Mesh>>(item.shape) ||
+           std::holds_alternative<Id<Revolve>>(item.shape);
   }
   // At least so many pieces a light of this shape is aimed at in; more than one counts as two.
   static std::uint64_t pieces_of(const Item& item) {

@@ -22,23 +22,28 @@ enum class Trait : std::uint8_t {
   textured,     // a value varies over the surface
   see_through,  // opacity can be below 1
   normal_map,
-  emissive
+  emissive,
+  bends,          // its index is not 1
+  glossy_within,  // index 1: glossy, or a mirror, but only inside a body of another index
+  mirror_within
 };
-inline constexpr std::size_t trait_count = 9;
+inline constexpr std::size_t trait_count = 12;
 
 struct TraitWitness {
   bool present = false;
   MaterialId material;
-  OriginId item;  // the first that shows it
+  OriginId item;        // the first that shows it
+  bool within = false;  // only inside a body of another index
 };
 
 struct EffectWalk {
   static constexpr std::uint64_t many = 1'000'000;  // counts stop here
 
   std::array<TraitWitness, trait_count> traits;
-  std::uint64_t placements = 0;        // shapes, each as often as it is placed
-  std::uint64_t flat_placements = 0;   // planes, triangles, quads, disks
-  std::uint64_t clear_placements = 0;  // shapes light passes into
+  std::uint64_t placements = 0;       // shapes, each as often as it is placed
+  std::uint64_t flat_placements = 0;  // planes, triangles, quads, disks
+  // Shapes light passes into; those whose parts may lie in each other count twice.
+  std::uint64_t clear_placements = 0;
   OriginId second_clear;
 
   std::uint64_t lights = 0;        // to aim at: all but constant surroundings

@@ -45,7 +45,10 @@ class Finder {
   void by_trait(Effect effect, Trait trait, std::string_view what, std::string absence) {
     const TraitWitness& found = walk_.of(trait);
     if (!found.present) return off(effect, std::move(absence));
-    on(effect, fmt::format("{} {}", material_name(found.material), what), found.item);
+    on(effect,
+       fmt::format("{} {}{}", material_name(found.material), what,
+                   found.within ? " inside another body" : ""),
+       found.item);
   }
 
   [[nodiscard]] std::string material_name(MaterialId id) const {

@@ -21,6 +21,8 @@ void set_interface(const Tracer<compiled>& tracer, const MediumStack& media,
   }
   b.ior = *relative;
   settle_kind(b);
+  if (b.kind == BsdfKind::rough_glass && !tracer.template with<ir::Effect::glossy>())
+    b.kind = BsdfKind::none;
 }
 
 // The scattering of any material but a matt one.

@@ -56,9 +56,11 @@ struct Bsdf {
   const GgxAlbedo* albedo = nullptr;
 };
 
-// Glass whose sides have the same index neither bends nor reflects: it has no facets either.
+// Glass whose sides have the same index neither bends nor reflects: it has no facets either. Asked
+// again when the index changes, as that of a bubble does in glass.
 inline void settle_kind(Bsdf& bsdf) {
-  if (bsdf.kind == BsdfKind::rough_glass && bsdf.ior == 1) bsdf.kind = BsdfKind::glass;
+  if (bsdf.kind != BsdfKind::glass && bsdf.kind != BsdfKind::rough_glass) return;
+  bsdf.kind = bsdf.alpha > 0 && bsdf.ior != 1 ? BsdfKind::rough_glass : BsdfKind::glass;
 }
 // Fills what follows from the other members (compensation, probabilities). Call once.
 void finish(Bsdf& bsdf);

@@ -76,6 +76,30 @@ TEST(NestedMedia, BodyOfAirInGlassReflects) {
   EXPECT_NEAR(mean(render(kit)).r, transmittance_of({1, 1.5, 1, 1.5, 1}), 0.006);
 }
 
+// Foam in glass: its index is that of air, so it is smooth and unseen outside, and rough within.
+// The same boundary from the other side is rough glass round a cavity.
+TEST(NestedMedia, RoughBodyOfAirInGlassIsRough) {
+  const auto seen = [](double roughness) {
+    SceneKit kit;
+    ir::Dielectric glass;
+    glass.ior = 1.5;
+    ir::Dielectric air;
+    air.ior = 1;
+    air.roughness.value = roughness;
+    kit.place(ir::Quad{{-0.3, 0, 0.3}, {0.6, 0, 0}, {0, 0, -0.6}}, kit.glowing(1));
+    kit.place(ir::Box{{-1, 1, -1}, {1, 2, 1}}, kit.material(glass));
+    kit.place(ir::Box{{-0.9, 1.4, -0.9}, {0.9, 1.6, 0.9}}, kit.material(air));
+    kit.settings.size = {1, 1};
+    kit.pinhole({0, 3, 0}, {0, 0, 0}, 0.01, {0, 0, -1});
+    kit.settings.samples = 4096;
+    return mean(render(kit)).r;
+  };
+  const double smooth = seen(0);
+  EXPECT_GT(smooth, 0.8);
+  // Scattered past the small lamp.
+  EXPECT_LT(seen(0.8), 0.7 * smooth);
+}
+
 TEST(NestedMedia, MoreThanEightRoundAPlaceAreCounted) {
   SceneKit kit;
   ir::Dielectric glass;
