@@ -23,10 +23,11 @@ constexpr std::size_t neighbour_radius = 1;
 constexpr double alike_share = 0.25;
 constexpr double most_deviations = 3;
 constexpr int fewest_neighbours = 3;
-// Pixels that share neighbours are wrong about R together: their doubts add up faster than those of
-// independent ones. What no doubt tells (light that is rarer than any replicate shows) is allowed
-// for by a part of the squared error. Both chosen on the tuning scenes of docs/accuracy.md.
-constexpr double shared_doubt = 2;
+// Pixels that share their neighbours are wrong about R together: doubts of nine pixels that are one
+// doubt add up to nine of it where independent ones add up to three. What no doubt tells (light
+// that is rarer than any replicate shows) is allowed for by a part of the squared error, chosen on
+// the tuning scenes of docs/accuracy.md.
+constexpr double shared_doubt = 2 * neighbour_radius + 1;
 constexpr double untold_share = 0.1;
 // What a relative error is measured against where the picture is dark (language: `error`).
 constexpr double dark_share = 0.01;
