@@ -17,8 +17,10 @@ struct Level {
   std::size_t peers;
   std::size_t part;
 };
-constexpr Level levels[] = {{4, 8}, {8, 16}, {16, 32}, {32, 64}, {64, 128}};
+constexpr Level levels[] = {{4, 8}, {8, 16}, {16, 32}, {32, 64}, {64, 128}, {128, 256}};
 constexpr std::size_t fewest_cells = 8;
+// With fewer, what is there need not show yet.
+constexpr std::size_t enough_peers = 16;
 
 struct Cell {
   ir::Region place;
@@ -131,8 +133,9 @@ std::optional<Agreement> second_look(const NoisyPicture& picture, const NoisyPic
     std::vector<double> evidence;
     for (const Cell& cell : cells) evidence.push_back(cell.suspicion);
     all.log_p = log_p_of_evidence(evidence, places.size());
-    // More peers would only show that nothing is there.
-    if (level.peers > levels[0].peers && !(all.log_p < 0)) return all;
+    // Not even for those cells alone: more peers would only show that nothing is there.
+    if (level.peers >= enough_peers && !(log_p_of_evidence(evidence, evidence.size()) < 0))
+      return all;
   }
   for (const Cell& cell : cells) add_finding(all, disagreement_of(cell));
   return all;
