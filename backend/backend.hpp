@@ -85,6 +85,24 @@ struct Progress {
 };
 using ProgressFunction = std::function<void(const Progress&)>;
 
+// What a ray was traced for.
+enum class RayKind : std::uint8_t {
+  camera,
+  reflected,  // by something exactly smooth
+  refracted,  // by smooth or rough glass
+  bounced,    // from a matt or glossy surface
+  shadow,
+  light,  // to a light whose radiance varies over it, for the radiance there
+};
+inline constexpr std::array<std::string_view, 6> ray_kind_names{"camera",  "reflected", "refracted",
+                                                                "bounced", "shadow",    "light"};
+using RayCounts = std::array<std::uint64_t, ray_kind_names.size()>;
+[[nodiscard]] constexpr std::uint64_t total_of(const RayCounts& rays) {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t count : rays) sum += count;
+  return sum;
+}
+
 // Linear radiance before exposure, float32, row 0 at the top, three floats a pixel; plus named
 // layers (EXR channel name, e.g. "albedo.R").
 struct Picture {
@@ -97,7 +115,7 @@ struct Picture {
   bool complete = true;                 // false after a stop request
   std::uint64_t dropped_samples = 0;    // not finite: counted, never averaged
   std::uint64_t saturated_samples = 0;  // beyond what a sum holds: cut to it
-  std::uint64_t rays = 0;
+  RayCounts rays{};                     // of this process, stopped rounds included
   // How often code ran that only this effect calls for; 0 for effects that are not simulated.
   std::array<std::uint64_t, ir::effect_count> effect_runs{};
   std::uint64_t forgotten_media = 0;  // bodies in more than eight others: the outermost was dropped
@@ -105,7 +123,11 @@ struct Picture {
 
 // Which of the compiled kernels renders a picture simulated with `effects`: the smallest that holds
 // them, or the one that holds all. No choice changes a bit of the picture.
-enum class KernelChoice : std::uint8_t { smallest, full };
+enum class KernelChoice : std::uint8_t {
+  smallest,
+  full,
+  probing,  // all effects, and tells what it does: see backend/render_profile.hpp
+};
 struct KernelSummary {
   std::string_view name;
   ir::EffectSet surplus;  // compiled in beyond `effects`; switched off while it runs

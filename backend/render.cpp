@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 // A round should end in time for a checkpoint, a look or a stop by time.
 constexpr double longest_round = 1.5;
 // An estimate for the progress line may take this part of the time.
-constexpr double share_of_estimates = 0.01;
+constexpr double share_of_estimates = 0.005;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -118,7 +118,6 @@ class Renderer {
   }
 
   bool error_is_reached() {
-    if (!settings_.stop.error || session_.samples() < samples_before_error) return false;
     if (!settings_.stop.error || session_.samples() < samples_before_error) return false;
     return error_holds(settings_.stop, session_.samples(), look(), state_.error_reached);
   }

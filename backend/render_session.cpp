@@ -97,6 +97,8 @@ struct RenderSession::Impl {
   std::size_t side;
   std::size_t tiles_x;
   std::size_t tiles_y;
+  ErrorEstimate estimate;
+  std::int64_t estimated_at = 0;   // samples; 0: not yet
   std::optional<SamplePlan> plan;  // none: every pixel gets the same
 };
 
@@ -172,14 +174,26 @@ Picture RenderSession::picture() const {
 }
 
 ErrorEstimate RenderSession::error() const {
-  if (impl_->film.samples() < samples_before_estimate) return {};
-  return error_of(impl_->film, impl_->pool);
+  Impl& my = *impl_;
+  if (my.film.samples() < samples_before_estimate) return {};
+  // Whoever decided by it and whoever tells it at the end ask for the same one.
+  if (my.estimated_at != my.film.samples()) {
+    my.estimate = error_of(my.film, my.pool);
+    my.estimated_at = my.film.samples();
+  }
+  return my.estimate;
 }
 
-std::uint64_t RenderSession::rays() const {
-  std::uint64_t sum = 0;
-  for (const KernelWorker& worker : impl_->workers) sum += worker.rays.rays;
+RayCounts RenderSession::rays() const {
+  RayCounts sum{};
+  for (const KernelWorker& worker : impl_->workers) {
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += worker.rays.rays[i];
+  }
   return sum;
+}
+
+std::uint64_t RenderSession::memory() const {
+  return impl_->film.memory();
 }
 
 std::string RenderSession::save() const {
@@ -192,6 +206,7 @@ std::string RenderSession::save() const {
 
 bool RenderSession::restore(std::string_view bytes) {
   Impl& my = *impl_;
+  my.estimated_at = 0;
   if (!my.plan) return my.film.restore(bytes);
   PackedReader reader(bytes);
   const auto size = reader.value<std::uint64_t>();

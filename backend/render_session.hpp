@@ -40,7 +40,8 @@ class RenderSession {
   [[nodiscard]] std::int64_t samples() const;  // a pixel on average, of finished rounds
   [[nodiscard]] Picture picture() const;       // of finished rounds, with the layers asked for
   [[nodiscard]] ErrorEstimate error() const;
-  [[nodiscard]] std::uint64_t rays() const;  // dropped rounds included
+  [[nodiscard]] RayCounts rays() const;        // of this process, stopped rounds included
+  [[nodiscard]] std::uint64_t memory() const;  // bytes of the sums it keeps
 
   // The sums of finished rounds as bytes, for this machine's builds of the same scene and settings;
   // what a session takes up from them goes on to the same bytes. The caller says what they belong

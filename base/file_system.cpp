@@ -81,6 +81,7 @@ bool MemoryFileSystem::is_file(const std::string& path) {
 
 Result<FileContent, FileError> RecordingFileSystem::read(const std::string& path,
                                                          std::uint64_t size_limit) {
+  const WorkClock::Running reading(&reading_);
   auto content = inner_.read(path, size_limit);
   const Hash128 hash = content.ok() ? hash_bytes(content.value().bytes) : Hash128{};
   const std::lock_guard lock(mutex_);

@@ -12,6 +12,7 @@
 
 #include "base/hash.hpp"
 #include "base/result.hpp"
+#include "base/work_clock.hpp"
 
 namespace scenec {
 
@@ -85,9 +86,11 @@ class RecordingFileSystem final : public FileSystem {
   bool is_file(const std::string& path) override;
   std::string reason_of(FileError error) const override { return inner_.reason_of(error); }
   [[nodiscard]] std::vector<FileRecord> records() const;  // sorted by path, one a path
+  [[nodiscard]] double seconds() const { return reading_.seconds(); }  // of reading and hashing
 
  private:
   FileSystem& inner_;
+  WorkClock reading_;
   mutable std::mutex mutex_;
   std::map<std::string, FileRecord> records_;
 };

@@ -129,6 +129,12 @@ FileId SourceMap::add_derived(FileId parent, std::string text, std::vector<Deriv
   return id;
 }
 
+std::uint64_t SourceMap::text_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const auto& file : files_) bytes += file->text.size();
+  return bytes;
+}
+
 void SourceMap::truncate(std::size_t size) {
   SCENEC_ASSERT(size <= files_.size());
   files_.resize(size);

@@ -42,6 +42,7 @@ class SourceMap {
   FileId add_derived(FileId parent, std::string text, std::vector<DerivedRange> ranges);
 
   [[nodiscard]] std::size_t size() const { return files_.size(); }
+  [[nodiscard]] std::uint64_t text_bytes() const;  // of all files
   // Forgets the files added last; spans into them must be gone.
   void truncate(std::size_t size);
 

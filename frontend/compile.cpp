@@ -32,6 +32,7 @@ grammar::SyntaxTree translated(const LoadedFile& loaded, const std::string& path
   course::Translation translation = course::translate(loaded.tree, how, files, sink);
   const FileId file =
       sources.add_derived(loaded.file, std::move(translation.text), std::move(translation.ranges));
+  const WorkClock::Running parsing(options.clocks != nullptr ? &options.clocks->parsing : nullptr);
   return grammar::parse_sdl(file, sources.text(file), sink);
 }
 
@@ -110,6 +111,8 @@ std::optional<ir::Scene> compile_trees(TreeSource& trees, const SceneFile& scene
   // nothing.
   const bool readable = !sink.has_errors();
   lowering.lower_scene(trees, scene.file, scene.identity);
+  const WorkClock::Running checking(options.clocks != nullptr ? &options.clocks->checking
+                                                              : nullptr);
   const bool complete = !session.out_of_steps() && session.item_count() <= options.limits.items;
   const auto end = static_cast<std::uint32_t>(sources.text(scene.file).size());
   if (readable && complete) check_scene(session, {scene.file, end, end}, lowering);
@@ -129,7 +132,8 @@ std::optional<ir::Scene> compile_in_parts(const SceneFile& file, const CompileOp
   PartReader parts({.file = file.file,
                     .text = sources.text(file.file),
                     .part_bytes = options.part_bytes,
-                    .found = found});
+                    .found = found,
+                    .parsing = options.clocks != nullptr ? &options.clocks->parsing : nullptr});
   std::optional<ir::Scene> scene;
   const auto read = [&] { scene = compile_trees(parts, file, options, files, sources, found); };
   if (options.pool != nullptr) {

@@ -14,6 +14,7 @@
 #include "base/limits.hpp"
 #include "base/parallel.hpp"
 #include "base/source_map.hpp"
+#include "base/work_clock.hpp"
 #include "grammar/parse.hpp"
 #include "ir/scene.hpp"
 
@@ -39,6 +40,12 @@ struct Frame {
 
 class FrontendCache;
 
+// What a compilation spends its time on, beside reading files: the rest is evaluation.
+struct CompileClocks {
+  WorkClock parsing;   // waiting for what other threads parse ahead included
+  WorkClock checking;  // of the whole scene, its lints and its hash
+};
+
 struct CompileOptions {
   std::optional<grammar::Dialect> dialect;  // none: by grammar::dialect_of
   std::vector<ParamSetting> params;         // of two with one name the later one counts
@@ -49,6 +56,7 @@ struct CompileOptions {
   Limits limits;
   FrontendCache* cache = nullptr;  // what earlier compilations have read
   ThreadPool* pool = nullptr;      // parses large files; none: the calling thread does
+  CompileClocks* clocks = nullptr;
   // A scene of this many bytes is read in parts of the size below, each forgotten when it has been
   // lowered. The scene and what is reported are the same either way.
   std::size_t read_in_parts = std::size_t{2} << 20;

@@ -125,6 +125,7 @@ FileId FrontendCache::file_number(Hash128 key) {
 
 grammar::SyntaxTree parsed_text(const CompileOptions& options, grammar::Dialect dialect,
                                 FileId file, std::string_view text, DiagnosticSink& sink) {
+  const WorkClock::Running parsing(options.clocks != nullptr ? &options.clocks->parsing : nullptr);
   if (options.cache != nullptr) return options.cache->tree_of(dialect, file, text, sink);
   return parse(dialect, file, text, sink);
 }

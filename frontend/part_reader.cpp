@@ -71,6 +71,7 @@ void PartReader::parse_ahead() {
 }
 
 const grammar::SyntaxTree* PartReader::next() {
+  const WorkClock::Running parsing(input_.parsing);
   if (std::exchange(keep_current_, false)) kept_.push_back(std::move(current_));
   current_.reset();
   Lock lock(mutex_);

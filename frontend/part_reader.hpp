@@ -14,6 +14,7 @@
 
 #include "base/diagnostic.hpp"
 #include "base/parallel.hpp"
+#include "base/work_clock.hpp"
 #include "grammar/parse.hpp"
 #include "grammar/split.hpp"
 #include "grammar/syntax_tree.hpp"
@@ -49,6 +50,7 @@ class PartReader final : public TreeSource {
     // What the reader reports. An error ends the reading: the tree of the whole text may be needed
     // to say what it is.
     const DiagnosticSink& found;
+    WorkClock* parsing = nullptr;  // of the reader: its own parsing and its waiting
   };
   explicit PartReader(const Input& input) : input_(input), splitter_(input.text) {}
 

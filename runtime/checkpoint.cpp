@@ -4,6 +4,7 @@
 
 #include <signal.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -204,7 +205,9 @@ void CheckpointKeeper::save(const backend::RenderSession& session,
     fs::remove(previous, ignored);
     fs::create_hard_link(path_, previous, ignored);
   }
-  problem_ = write_file_atomically(path_, checkpoint_bytes({identity_, state, session.save()}));
+  const std::string bytes = checkpoint_bytes({identity_, state, session.save()});
+  memory_ = std::max<std::uint64_t>(memory_, bytes.size());
+  problem_ = write_file_atomically(path_, bytes);
   if (!problem_) saved_samples_ = session.samples();
 }
 

@@ -56,6 +56,8 @@ class CheckpointKeeper {
   // Why the last save failed.
   [[nodiscard]] const std::optional<std::string>& problem() const { return problem_; }
   [[nodiscard]] const std::string& path() const { return path_; }
+  // Bytes of the largest one that was made; 0: none was.
+  [[nodiscard]] std::uint64_t memory() const { return memory_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -65,6 +67,7 @@ class CheckpointKeeper {
   RenderIdentity identity_;
   std::optional<std::string> problem_;
   std::int64_t saved_samples_ = -1;
+  std::uint64_t memory_ = 0;
   Clock::time_point last_ = Clock::now();
 };
 

@@ -128,7 +128,12 @@ std::optional<ir::Scene> Session::load_and_compile(ThreadPool& pool,
                                                    frontend::FrontendCache* texts) {
   compile_options_.pool = &pool;
   compile_options_.cache = texts;
+  compile_options_.clocks = &clocks_;
   const auto file = load(std::nullopt, frontend::LoadTree::unless_large);
+  if (file) {
+    tree_bytes_ = file->tree.nodes().size_bytes();
+    if (file->native) tree_bytes_ += file->native->nodes().size_bytes();
+  }
   auto scene = file ? compile(*file) : std::nullopt;
   if (texts != nullptr && file) params_ = texts->params();
   return scene;

@@ -43,6 +43,11 @@ class Session {
   // earlier compilations of this process have read.
   [[nodiscard]] std::optional<ir::Scene> load_and_compile(ThreadPool& pool,
                                                           frontend::FrontendCache* texts = nullptr);
+  // Bytes of the trees load_and_compile() has made of the scene file and has let go of again;
+  // without those of a file that was read in parts.
+  [[nodiscard]] std::uint64_t tree_bytes() const { return tree_bytes_; }
+  // What it spent its time on.
+  [[nodiscard]] const frontend::CompileClocks& clocks() const { return clocks_; }
   // Of the last compilation that asked for them by handing over a cache.
   [[nodiscard]] const std::vector<frontend::ParamInfo>& params() const { return params_; }
 
@@ -78,6 +83,8 @@ class Session {
   std::set<std::string>* told_ = nullptr;
   SharedDependencies* shared_ = nullptr;
   std::vector<frontend::ParamInfo> params_;
+  frontend::CompileClocks clocks_;
+  std::uint64_t tree_bytes_ = 0;
   bool loaded_ = false;
   bool scene_unreadable_ = false;
   RootedFileSystem disk_;

@@ -21,6 +21,9 @@ class Placements {
   [[nodiscard]] bool holds(Index index) const;
   // All of them, in their order.
   void feed(Hasher& hasher) const;
+  [[nodiscard]] std::uint64_t memory() const {
+    return moves_.size() * sizeof(Vector3) + others_.size() * sizeof(Transform);
+  }
   // World from object.
   [[nodiscard]] Transform operator[](Index index) const;
   // The same points in object space. Not renormalised: every t stays what it is.

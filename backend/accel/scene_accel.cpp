@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -54,6 +55,28 @@ std::uint32_t push(std::vector<T>& values, T value) {
   SCENEC_ASSERT(values.size() < Hit::none);
   values.push_back(std::move(value));
   return static_cast<std::uint32_t>(values.size() - 1);
+}
+
+template <class T>
+std::uint64_t bytes_of(const std::vector<T>& values) {
+  return values.capacity() * sizeof(T);
+}
+
+std::uint64_t memory_of(const SceneAccel::Data& d, std::set<const void*>& counted) {
+  if (!counted.insert(&d).second) return 0;
+  std::uint64_t bytes = sizeof d + d.places.memory() + bytes_of(d.spheres) + bytes_of(d.planes) +
+                        bytes_of(d.triangles) + bytes_of(d.quads) + bytes_of(d.disks) +
+                        bytes_of(d.boxes) + bytes_of(d.cylinders) + bytes_of(d.meshes) +
+                        bytes_of(d.revolves) + bytes_of(d.worlds) + bytes_of(d.items) +
+                        bytes_of(d.unbounded) + bytes_of(d.flat_list) + bytes_of(d.flat.spheres) +
+                        bytes_of(d.flat.quads) + bytes_of(d.flat.disks) + bytes_of(d.flat.planes) +
+                        d.tree.nodes.capacity() * sizeof(WideNode);
+  for (const auto& mesh : d.meshes)
+    if (counted.insert(mesh.get()).second) bytes += sizeof *mesh + mesh->tree().bytes();
+  for (const auto& revolve : d.revolves)
+    if (counted.insert(revolve.get()).second) bytes += revolve->memory();
+  for (const auto& world : d.worlds) bytes += memory_of(SceneAccel::Data::of(*world), counted);
+  return bytes;
 }
 
 }  // namespace
@@ -267,6 +290,11 @@ void SceneAccel::build(ThreadPool& pool, Target target) {
     const Bounds3 box = d.world_bounds(item);
     if (box.finite()) d.tree.bounds.grow(box);
   }
+}
+
+std::uint64_t SceneAccel::memory() const {
+  std::set<const void*> counted;
+  return memory_of(*data_, counted);
 }
 
 Bounds3 SceneAccel::bounds() const {

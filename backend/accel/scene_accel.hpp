@@ -73,6 +73,12 @@ struct FoundHit {
   std::uint32_t item = Hit::none;
   std::uint32_t primitive = 0;
 };
+// What a query tests on its way.
+struct TestCounts {
+  std::uint64_t nodes = 0;       // of trees, with eight boxes each
+  std::uint64_t primitives = 0;  // triangles and other shapes
+};
+enum class Search : std::uint8_t { closest, any };
 struct QueryKernels;
 
 class SceneAccel {
@@ -117,6 +123,13 @@ class SceneAccel {
   // Whether anything is hit in it.
   [[nodiscard]] bool occluded(const Ray& ray, const HitFilter& filter = {}) const;
 
+  // Adds what such a query tests, by walking once more. Counted with the least instruction set:
+  // others round boxes differently and may visit a node more or less.
+  void count_tests(const Ray& ray, Search search, const HitFilter& filter,
+                   TestCounts& counts) const;
+
+  // Bytes of trees and of what is placed, each shared part once; meshes themselves are left out.
+  [[nodiscard]] std::uint64_t memory() const;
   // Bounds of everything but planes.
   [[nodiscard]] Bounds3 bounds() const;
   [[nodiscard]] std::size_t item_count() const;

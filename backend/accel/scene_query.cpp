@@ -30,11 +30,45 @@ enum class Filtering : std::uint8_t { none, some };
 
 using World = SceneAccel::Data;
 
-template <Want want, Filtering filtering>
+// What a query does not count, and what it counts.
+struct Uncounted {
+  HWY_INLINE void operator()() const {}
+  HWY_INLINE void add(std::size_t) const {}
+  template <class Block>
+  HWY_INLINE void add_block(const Block&) const {}
+};
+struct Counted {
+  TestCounts* counts;
+
+  void operator()() const { ++counts->nodes; }
+  void add(std::size_t primitives) const { counts->primitives += primitives; }
+  template <class T>
+  void add_block(const TriangleBlock<T>& block) const {
+    for (const std::uint32_t face : block.face) add(face == TriangleBlock<T>::no_face ? 0 : 1);
+  }
+  // Places without a shape hold NaN.
+  void add_block(const FlatSpheres& block) const { add_lanes(block.radius); }
+  template <class Block>
+    requires requires(const Block& block) { block.normal; }
+  void add_block(const Block& block) const {
+    add_lanes(block.normal[0]);
+  }
+
+ private:
+  void add_lanes(const FlatLane& lane) const {
+    for (const double value : lane) add(value == value ? 1 : 0);
+  }
+};
+
+template <Want want, Filtering filtering, class Counter = Uncounted>
 class Query {
  public:
-  HWY_INLINE Query(const Ray& ray, const HitFilter& filter, Walk walk)
-      : world_ray_(ray), filter_(filter), best_{ray.t_max, 0, 0, 0}, walk_(walk) {
+  HWY_INLINE Query(const Ray& ray, const HitFilter& filter, Walk walk, Counter counter = {})
+      : world_ray_(ray),
+        filter_(filter),
+        counter_(counter),
+        best_{ray.t_max, 0, 0, 0},
+        walk_(walk) {
     path_.size = 0;
   }
 
@@ -58,7 +92,7 @@ class Query {
     return walk < want == Want::any
                ? Order::any
                : Order::nearest_first > (world.tree.nodes.data(), world.tree.root, local.box,
-                                         local.box.limit(local.t_max), leaf);
+                                         local.box.limit(local.t_max), leaf, counter_);
   }
 
   [[nodiscard]] bool found() const { return found_; }
@@ -141,6 +175,7 @@ class Query {
                             const std::vector<Block>& blocks, Nearest& nearest) {
     alignas(32) double ts[flat_width];
     for (const Block& block : blocks) {
+      counter_.add_block(block);
       for (std::size_t at = 0; at < flat_width; at += triangle_lanes) {
         std::uint32_t bits = test(block, at, nearest.t, ts);
         while (bits != 0) {
@@ -161,12 +196,14 @@ class Query {
 
   bool trace_shape(const World& world, const PlacedItem& item, Ray ray) {
     ShapeHit hit;
+    counter_.add(1);
     while (intersect_shape(world, item, ray, hit)) {
       if (!improves(hit)) return false;
       if (passes(item, hit)) return accept(hit);
       // Behind a refused hit the shape may have another.
       ray.t_min = next_up(hit.t);
       if (!(ray.t_min <= ray.t_max)) return false;
+      counter_.add(1);
     }
     return false;
   }
@@ -188,6 +225,7 @@ class Query {
     ShapeHit best;
     bool found = false;
     const auto test_block = [&](const TriangleBlock<T>& block) SCENEC_INLINE_LAMBDA {
+      counter_.add_block(block);
       return test(block, best_t,
                   [&](double t, std::uint32_t face, double b1, double b2) SCENEC_INLINE_LAMBDA {
                     if (t > best_t || (found && t == best_t && face >= best.part)) return false;
@@ -231,7 +269,7 @@ class Query {
       stopped = walk < want == Want::any
                     ? Order::any
                     : Order::nearest_first > (tree.nodes.data(), tree.root, local.box,
-                                              local.box.limit(local.t_max), leaf);
+                                              local.box.limit(local.t_max), leaf, counter_);
     }
     if (found && improves(best)) accept(best);
     return stopped;
@@ -269,6 +307,7 @@ class Query {
 
   const Ray& world_ray_;
   const HitFilter& filter_;
+  [[no_unique_address]] Counter counter_;
   ShapeHit best_;
   ItemPath path_;
   ItemPath best_path_;
@@ -310,6 +349,20 @@ bool find_in_world(const World& world, const Ray& ray, const HitFilter& filter, 
 bool occluded_in_world(const World& world, const Ray& ray, const HitFilter& filter, Walk walk) {
   return run<Want::any>(world, ray, filter, walk, [](const auto&) {});
 }
+
+#if HWY_ONCE
+void count_in_world(const World& world, const Ray& ray, Search search, const HitFilter& filter,
+                    TestCounts& counts) {
+  if (!is_traceable(ray)) return;
+  const Counted counter{&counts};
+  if (search == Search::any) {
+    Query<Want::any, Filtering::some, Counted>(ray, filter, Walk::tree, counter).trace(world, ray);
+  } else {
+    Query<Want::closest, Filtering::some, Counted>(ray, filter, Walk::tree, counter)
+        .trace(world, ray);
+  }
+}
+#endif
 
 const QueryKernels& kernels() {
   static constexpr QueryKernels table{intersect_world, find_in_world, occluded_in_world};
@@ -353,6 +406,11 @@ bool SceneAccel::find(const Ray& ray, FoundHit& hit) const {
 
 bool SceneAccel::intersect_brute_force(const Ray& ray, Hit& hit, const HitFilter& filter) const {
   return kernels_->intersect(*data_, ray, filter, Walk::brute_force, HitDetail::texture, hit);
+}
+
+void SceneAccel::count_tests(const Ray& ray, Search search, const HitFilter& filter,
+                             TestCounts& counts) const {
+  HWY_STATIC_DISPATCH(count_in_world)(*data_, ray, search, filter, counts);
 }
 
 bool SceneAccel::occluded(const Ray& ray, const HitFilter& filter) const {

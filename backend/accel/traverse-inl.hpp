@@ -219,10 +219,13 @@ HWY_INLINE void sort_pending(std::uint64_t* bottom, std::uint64_t* top) {
 }
 
 // Calls leaf(ref, limit) for every leaf whose box meets the ray up to `limit`, which the callee may
-// lower. Stops, and returns true, when `leaf` returns true.
-template <Order order, class Leaf>
+// lower. Stops, and returns true, when `leaf` returns true. `visit` is called for every node.
+struct VisitNothing {
+  HWY_INLINE void operator()() const {}
+};
+template <Order order, class Leaf, class Visit = VisitNothing>
 HWY_INLINE bool walk(const WideNode* nodes, TreeRef root, const BoxRay& box_ray, float limit,
-                     Leaf&& leaf) {
+                     Leaf&& leaf, const Visit& visit = {}) {
   const FloatTag d;
   const NodeTest test(box_ray);
   Floats limits = hn::Set(d, limit);
@@ -232,6 +235,7 @@ HWY_INLINE bool walk(const WideNode* nodes, TreeRef root, const BoxRay& box_ray,
   const auto* base = reinterpret_cast<const std::uint8_t*>(nodes);
   while (true) {
     while (!current.is_leaf()) {
+      visit();
       const std::uint8_t* node = base + current.node_offset();
       const auto* child = reinterpret_cast<const TreeRef*>(node + WideNode::child_offset);
       Floats entries[box_parts];

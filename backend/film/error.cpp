@@ -78,29 +78,42 @@ struct Guess {
   double doubt = 0;
 };
 
-Guess guess_of(double first, double second, const Neighbours& near, std::size_t c) {
+// What the neighbours say of one channel, whichever replicates are asked beside them.
+struct Around {
+  bool say_something = false;
+  double pooled_sum = 0;  // variances that are pooled with the pixel's own, and how many
+  double pooled_parts = 1;
+  double mean = 0;
+  double differing = 0;  // scatter of the neighbours beyond their noise
+  double noise_of_mean = 0;
+};
+Around around_of(const Neighbours& near, std::size_t c) {
+  if (near.alike < fewest_neighbours)
+    return {.pooled_sum = near.variance_of_all[c], .pooled_parts = 1.0 + 3 * near.all};
+  Around around{
+      .say_something = true, .pooled_sum = near.variance[c], .pooled_parts = 1.0 + 3 * near.alike};
+  const double n = near.alike;
+  around.mean = near.sum[c] / n;
+  const double noise = near.variance[c] / n / r;
+  const double scatter =
+      std::max(0.0, near.squares[c] / n - around.mean * around.mean) * n / (n - 1);
+  around.differing = std::max(0.0, scatter - noise);
+  around.noise_of_mean = noise / n;
+  return around;
+}
+
+Guess guess_of(double first, double second, const Around& near) {
   const double own = (first + second) / 2;
   const double own_variance = (first - second) * (first - second) / 2;  // of one replicate
   // Three degrees of freedom each, beside one.
-  const auto pooled = [&](double sum, int count) {
-    return (own_variance + 3 * sum) / (1 + 3 * count) / 2;
-  };
-  if (near.alike < fewest_neighbours) {
-    const double variance = pooled(near.variance_of_all[c], near.all);
-    return {own, variance, variance};
-  }
+  const double own_noise = (own_variance + 3 * near.pooled_sum) / near.pooled_parts / 2;
+  if (!near.say_something) return {own, own_noise, own_noise};
   // Between the pixel and its neighbours by what each is worth (James and Stein): their scatter
   // beyond noise says how far R may be from their mean.
-  const double n = near.alike;
-  const double mean = near.sum[c] / n;
-  const double noise = near.variance[c] / n / r;
-  const double scatter = std::max(0.0, near.squares[c] / n - mean * mean) * n / (n - 1);
-  const double differing = std::max(0.0, scatter - noise);
-  const double own_noise = pooled(near.variance[c], near.alike);
-  const double both = differing + own_noise;
-  const double share = both > 0 ? differing / both : 1;
-  const double rest = (1 - share) * (1 - share) * noise / n;
-  return {share * own + (1 - share) * mean, share * share * own_noise + rest,
+  const double both = near.differing + own_noise;
+  const double share = both > 0 ? near.differing / both : 1;
+  const double rest = (1 - share) * (1 - share) * near.noise_of_mean;
+  return {share * own + (1 - share) * near.mean, share * share * own_noise + rest,
           share * own_noise + rest};
 }
 
@@ -136,9 +149,10 @@ Squares relative_squares(const Noise& noise, const Neighbours& near, double dark
   Squares squares;
   Channels weight{};
   double doubt = 0;
+  const std::array<Around, 3> around{around_of(near, 0), around_of(near, 1), around_of(near, 2)};
   for (const auto& [a, b, d, e] : pairs) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const Guess guess = guess_of(x[d][c], x[e][c], near, c);
+      const Guess guess = guess_of(x[d][c], x[e][c], around[c]);
       const double square = guess.value * guess.value;
       const double sum = square + dark;
       if (!(sum > 0)) continue;  // a picture without light

@@ -150,6 +150,10 @@ std::optional<ReplicateMeans> Film::replicate_means(std::size_t pixel) const {
   return means;
 }
 
+std::uint64_t Film::memory() const {
+  return sums_.memory() + replicates_.memory() + extra_.memory() + distrust_.memory();
+}
+
 std::string Film::save() const {
   std::string out;
   append_packed(out, samples_);

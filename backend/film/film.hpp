@@ -95,6 +95,7 @@ class Film {
   [[nodiscard]] std::optional<ReplicateMeans> replicate_means(std::size_t pixel) const;
   [[nodiscard]] Rgb mean(std::size_t pixel) const;
 
+  [[nodiscard]] std::uint64_t memory() const;  // bytes of all sums
   // The finished rounds as bytes; restore() refuses what cannot be sums of this film.
   [[nodiscard]] std::string save() const;
   [[nodiscard]] bool restore(std::string_view bytes);
@@ -126,6 +127,9 @@ class Film {
         out += packed_bytes_of(std::vector<T>(pixels));
       else
         out += packed_bytes_of(done);
+    }
+    [[nodiscard]] std::uint64_t memory() const {
+      return (done.capacity() + next.capacity()) * sizeof(T);
     }
     void open_next() {
       if (next.size() != pixels) next.resize(pixels);

@@ -78,6 +78,11 @@ class Revolve {
     double height_max = 0;
   };
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  [[nodiscard]] std::uint64_t memory() const {
+    return sizeof *this + pieces_.capacity() * sizeof(Piece) +
+           profile_.points.capacity() * sizeof(ProfilePoint) +
+           profile_.starts.capacity() * sizeof(std::uint32_t) + profile_.degrees.capacity();
+  }
 
  private:
   Profile profile_;

@@ -15,6 +15,7 @@ using TileFunction = bool (*)(const TileJob&, Film&, const Tile&, const SampleRa
   extern template bool render_tile<ir::Method::method, kernel_masks::name>(  \
       const TileJob&, Film&, const Tile&, const SampleRange&, KernelWorker&, \
       const std::stop_token&);
+#define SCENEC_PROBING_KERNEL(method, name) SCENEC_KERNEL(method, name)
 #include "backend/integrators/kernels.def"
 #undef SCENEC_KERNEL
 
@@ -33,7 +34,21 @@ constexpr std::array kernels{
 #undef SCENEC_KERNEL
 };
 
+// One a method: they may do all that the full kernels do.
+constexpr std::array probing_kernels{
+#define SCENEC_KERNEL(method, name)
+#define SCENEC_PROBING_KERNEL(method, name)               \
+  Kernel{{ir::Method::method, #name, kernel_masks::name}, \
+         render_tile<ir::Method::method, kernel_masks::name>},
+#include "backend/integrators/kernels.def"
+#undef SCENEC_KERNEL
+};
+
 const Kernel& choose(ir::Method method, EffectMask effects, KernelChoice choice) {
+  if (choice == KernelChoice::probing) {
+    return *std::find_if(probing_kernels.begin(), probing_kernels.end(),
+                         [&](const Kernel& kernel) { return kernel.info.method == method; });
+  }
   const Kernel* chosen = nullptr;
   for (const Kernel& kernel : kernels) {
     if (kernel.info.method != method) continue;

@@ -17,7 +17,6 @@ namespace scenec::backend {
 
 // A set of effects as bits, for templates.
 using EffectMask = std::uint32_t;
-static_assert(ir::effect_count <= 32);
 
 [[nodiscard]] constexpr EffectMask bit_of(ir::Effect effect) {
   return EffectMask{1} << static_cast<unsigned>(effect);
@@ -29,6 +28,10 @@ static_assert(ir::effect_count <= 32);
 }
 [[nodiscard]] EffectMask mask_of(const ir::EffectSet& effects);
 [[nodiscard]] ir::EffectSet set_of(EffectMask mask);
+
+// Beside the effects: a kernel that takes the time of what it does and counts what its rays test.
+inline constexpr EffectMask probing_kernel = EffectMask{1} << 31;
+static_assert(ir::effect_count < 31);
 
 namespace kernel_masks {
 using enum ir::Effect;
@@ -49,6 +52,9 @@ inline constexpr EffectMask whitted_matt =
     mask_of({shadows, area_lights, environment, depth_of_field});
 inline constexpr EffectMask whitted_plain =
     whitted_matt | mask_of({glossy, reflection, refraction, absorption, nested_media, many_lights});
+inline constexpr EffectMask path_probing = path_full | probing_kernel;
+inline constexpr EffectMask whitted_probing = whitted_full | probing_kernel;
+inline constexpr EffectMask phong_probing = phong_full | probing_kernel;
 inline constexpr EffectMask phong_plain = mask_of({glossy, many_lights, depth_of_field});
 }  // namespace kernel_masks
 

@@ -59,8 +59,7 @@ class PathTracer {
   // Follows one ray; false when the path ends.
   bool step() {
     Hit hit;
-    const RayKind kind = depth_ == 0 ? RayKind::camera : RayKind::scattered;
-    if (!tracer_.intersect(ray_, kind, depth_, sampler_, hit)) {
+    if (!tracer_.intersect(ray_, kind_, depth_, sampler_, hit)) {
       add_escaped();
       return false;
     }
@@ -84,7 +83,8 @@ class PathTracer {
     const Vector3 to_viewer = -ray_.direction;
     const PreparedMaterial& prepared = scene_.materials[material.value()];
     if (prepared.use == PreparedMaterial::Use::matt) {
-      const MattSurface surface = matt_at(prepared, hit, to_viewer);
+      const MattSurface surface =
+          tracer_.timed(RenderStage::materials, [&] { return matt_at(prepared, hit, to_viewer); });
       return meet(hit, surface, surface.shading, material);
     }
     const Bsdf bsdf = bsdf_at(tracer_, media_, material, hit, to_viewer, sampler_, depth_);
@@ -163,7 +163,8 @@ class PathTracer {
     }
     tracer_.count(ir::Effect::many_lights);
     const double u = sampler_.get_1d(dimension::bounce(depth_) + dimension::light_choice);
-    const LightTable::Choice choice = lights.choose(u, lit_place(hit, surface, normal));
+    const LightTable::Choice choice = tracer_.timed(
+        RenderStage::lights, [&] { return lights.choose(u, lit_place(hit, surface, normal)); });
     if (!(choice.probability > 0)) return;
     const auto weight = [&](const LightSample& light, double bsdf_pdf) {
       return light.delta
@@ -207,7 +208,9 @@ class PathTracer {
     const std::uint32_t base = dimension::bounce(depth_);
     constexpr bool one_lobe = std::is_same_v<Surface, MattSurface>;
     const double lobe = one_lobe ? 0 : sampler_.get_1d(base + dimension::lobe);
-    const BsdfSample s = sample_bsdf(surface, lobe, sampler_.get_2d(base + dimension::direction));
+    const BsdfSample s = tracer_.timed(RenderStage::materials, [&] {
+      return sample_bsdf(surface, lobe, sampler_.get_2d(base + dimension::direction));
+    });
     if (is_black(s.weight) || !follows(s)) return false;
     throughput_ *= s.weight;
     eta_scale_ *= s.eta_scale;
@@ -216,9 +219,15 @@ class PathTracer {
     scattered_ = scattered_ || !s.specular;
     scatter_place_ = lit_place(hit, surface, normal);
     ray_ = spawn_ray(hit, s.wi);
+    kind_ = kind_of(s);
     if (s.transmitted) cross(tracer_, media_, material, surface.entering);
     ++depth_;
     return true;
+  }
+
+  static RayKind kind_of(const BsdfSample& s) {
+    if (s.transmitted) return RayKind::refracted;
+    return s.specular ? RayKind::reflected : RayKind::bounced;
   }
 
   // What light a place can receive: of an opaque surface, that of one side.
@@ -234,6 +243,7 @@ class PathTracer {
   const Sampler& sampler_;
   std::uint64_t max_depth_;
   Ray ray_;
+  RayKind kind_ = RayKind::camera;
   Rgb throughput_{1, 1, 1};
   Rgb radiance_;
   double length_ = 0;       // of the path so far

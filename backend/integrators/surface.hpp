@@ -25,11 +25,10 @@ void set_interface(const Tracer<compiled>& tracer, const MediumStack& media,
     b.kind = BsdfKind::none;
 }
 
-// The scattering of any material but a matt one.
 template <EffectMask compiled>
-Bsdf bsdf_at(const Tracer<compiled>& tracer, const MediumStack& media, ir::MaterialId material,
-             const Hit& hit, const Vector3& to_viewer, const Sampler& sampler,
-             std::uint32_t depth) {
+Bsdf resolved_bsdf(const Tracer<compiled>& tracer, const MediumStack& media,
+                   ir::MaterialId material, const Hit& hit, const Vector3& to_viewer,
+                   const Sampler& sampler, std::uint32_t depth) {
   const PreparedMaterial& prepared = tracer.scene().materials[material.value()];
   ResolveOptions options{tracer.texture_place(hit), 0,
                          tracer.template with<ir::Effect::normal_maps>(),
@@ -46,6 +45,16 @@ Bsdf bsdf_at(const Tracer<compiled>& tracer, const MediumStack& media, ir::Mater
   if (is_rough(b)) tracer.count(ir::Effect::glossy);
   finish(b);
   return b;
+}
+
+// The scattering of any material but a matt one.
+template <EffectMask compiled>
+Bsdf bsdf_at(const Tracer<compiled>& tracer, const MediumStack& media, ir::MaterialId material,
+             const Hit& hit, const Vector3& to_viewer, const Sampler& sampler,
+             std::uint32_t depth) {
+  return tracer.timed(RenderStage::materials, [&] {
+    return resolved_bsdf(tracer, media, material, hit, to_viewer, sampler, depth);
+  });
 }
 
 inline MattSurface matt_at(const PreparedMaterial& material, const Hit& hit,

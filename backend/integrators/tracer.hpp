@@ -12,6 +12,7 @@
 #include "backend/film/film.hpp"
 #include "backend/integrators/kernel_set.hpp"
 #include "backend/integrators/media.hpp"
+#include "backend/integrators/probe_counters.hpp"
 #include "backend/materials/matt.hpp"
 #include "backend/materials/resolve.hpp"
 #include "backend/render_scene.hpp"
@@ -22,14 +23,18 @@ namespace scenec::backend {
 
 // Counters of one worker. `effects`: how often code ran that only this effect calls for.
 struct RayCounters {
-  std::uint64_t rays = 0;
+  RayCounts rays{};
   std::array<std::uint64_t, ir::effect_count> effects{};
   std::uint64_t forgotten_media = 0;
+  ProbeCounters* probe = nullptr;  // of a probing kernel
 
+  void count(RayKind kind) { ++rays[static_cast<std::size_t>(kind)]; }
   void count(ir::Effect effect) { ++effects[static_cast<std::size_t>(effect)]; }
 };
 
-enum class RayKind : std::uint8_t { camera, scattered, shadow };
+[[nodiscard]] constexpr bool is_scattered(RayKind kind) {
+  return kind == RayKind::reflected || kind == RayKind::refracted || kind == RayKind::bounced;
+}
 
 // What the tiles of one picture share.
 struct TraceJob {
@@ -69,20 +74,31 @@ class Tracer {
   // camera's rays and shadow rays through.
   [[nodiscard]] bool intersect(const Ray& ray, RayKind kind, std::uint32_t depth,
                                const Sampler& sampler, Hit& hit) const {
-    ++counters_.rays;
-    if (!filters_) return scene_.accel.intersect(ray, hit, {}, job_.detail);
+    counters_.count(kind);
+    if (!filters_) return closest(kind, ray, hit, {});
     const auto keep = [&](const Hit& candidate) { return keeps(candidate, kind, depth, sampler); };
-    return scene_.accel.intersect(ray, hit, HitFilter(keep), job_.detail);
+    return closest(kind, ray, hit, HitFilter(keep));
   }
   [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t depth, const Sampler& sampler) const {
     if (!with<ir::Effect::shadows>()) return false;
     count(ir::Effect::shadows);
-    ++counters_.rays;
-    if (!filters_) return scene_.accel.occluded(ray);
+    counters_.count(RayKind::shadow);
+    if (!filters_) return any(ray, {});
     const auto keep = [&](const Hit& candidate) {
       return keeps(candidate, RayKind::shadow, depth, sampler);
     };
-    return scene_.accel.occluded(ray, HitFilter(keep));
+    return any(ray, HitFilter(keep));
+  }
+
+  // Does the work; a probing kernel takes the time.
+  template <class F>
+  [[nodiscard]] auto timed(RenderStage stage, F&& work) const {
+    if constexpr ((compiled & probing_kernel) == 0) {
+      return work();
+    } else {
+      const StageClock clock(*counters_.probe, stage);
+      return work();
+    }
   }
 
   [[nodiscard]] TexturePlace texture_place(const Hit& hit) const {
@@ -123,12 +139,14 @@ class Tracer {
                            const Weight& weight) const {
     const std::uint32_t base = dimension::bounce(depth);
     LightSample sample;
-    if (!scene_.lights.sample(light, hit.point, sampler.get_2d(base + dimension::light_point),
-                              sample) ||
-        is_black(sample.radiance) || !gives_light(sample))
-      return {};
+    const bool drawn = timed(RenderStage::lights, [&] {
+      return scene_.lights.sample(light, hit.point, sampler.get_2d(base + dimension::light_point),
+                                  sample);
+    });
+    if (!drawn || is_black(sample.radiance) || !gives_light(sample)) return {};
     if (!with<ir::Effect::refraction>() && dot(sample.wi, surface.geometric) < 0) return {};
-    const BsdfValue value = evaluate(surface, sample.wi);
+    const BsdfValue value =
+        timed(RenderStage::materials, [&] { return evaluate(surface, sample.wi); });
     if (is_black(value.f_cos)) return {};
     const Rgb arriving = visible_radiance(hit, sample, depth, sampler);
     if (is_black(arriving)) return {};
@@ -136,11 +154,27 @@ class Tracer {
   }
 
  private:
+  [[nodiscard]] bool closest(RayKind kind, const Ray& ray, Hit& hit,
+                             const HitFilter& filter) const {
+    return closest(kind, ray, hit, filter, job_.detail);
+  }
+  [[nodiscard]] bool closest([[maybe_unused]] RayKind kind, const Ray& ray, Hit& hit,
+                             const HitFilter& filter, HitDetail detail) const {
+    if constexpr ((compiled & probing_kernel) != 0)
+      counters_.probe->count_tests(kind, scene_.accel, ray, filter);
+    return timed(stage_of(kind), [&] { return scene_.accel.intersect(ray, hit, filter, detail); });
+  }
+  [[nodiscard]] bool any(const Ray& ray, const HitFilter& filter) const {
+    if constexpr ((compiled & probing_kernel) != 0)
+      counters_.probe->count_tests(RayKind::shadow, scene_.accel, ray, filter);
+    return timed(stage_of(RayKind::shadow), [&] { return scene_.accel.occluded(ray, filter); });
+  }
+
   [[nodiscard]] bool keeps(const Hit& hit, RayKind kind, std::uint32_t depth,
                            const Sampler& sampler) const {
     const RenderItem& item = scene_.items[hit.item];
     if (item.light != RenderItem::none)
-      return kind == RayKind::scattered || scene_.lights.emitters[item.light].visible;
+      return is_scattered(kind) || scene_.lights.emitters[item.light].visible;
     if (!with<ir::Effect::alpha>()) return true;
     count(ir::Effect::alpha);
     const double opacity = opacity_of(scene_, scene_.material_of(hit), texture_place(hit));
@@ -181,12 +215,13 @@ class Tracer {
   // The radiance there varies: look at the light's surface itself, past what hides nothing.
   [[nodiscard]] Rgb textured_radiance(const Hit& hit, const LightSample& light) const {
     Hit seen;
-    ++counters_.rays;
+    counters_.count(RayKind::light);
     const auto on_emitter = [&](const Hit& candidate) {
       const std::uint32_t emitter = scene_.emitter_of(candidate);
       return emitter != RenderItem::none && &scene_.lights.emitters[emitter] == light.emitter;
     };
-    if (!scene_.accel.intersect(spawn_ray(hit, light.wi), seen, HitFilter(on_emitter))) return {};
+    const Ray ray = spawn_ray(hit, light.wi);
+    if (!closest(RayKind::light, ray, seen, HitFilter(on_emitter), HitDetail::texture)) return {};
     if (!on_emitter(seen)) return {};
     const ir::MaterialId material = scene_.material_of(seen);
     // Where the light itself is see-through, its surface is there with that probability only; the
@@ -211,6 +246,7 @@ struct Branch {
   Rgb throughput{1, 1, 1};
   double length = 0;  // from the camera
   std::uint32_t depth = 0;
+  RayKind kind = RayKind::camera;
   MediumStack media;
 };
 struct BranchStack {

@@ -51,8 +51,7 @@ class WhittedTracer {
   // Follows one ray; false when the branch ends.
   bool step(Branch& branch) {
     Hit hit;
-    const RayKind kind = branch.depth == 0 ? RayKind::camera : RayKind::scattered;
-    if (!tracer_.intersect(branch.ray, kind, branch.depth, sampler_, hit)) {
+    if (!tracer_.intersect(branch.ray, branch.kind, branch.depth, sampler_, hit)) {
       out_.radiance += branch.throughput * tracer_.escaped(branch.ray.direction, branch.depth == 0);
       return false;
     }
@@ -73,7 +72,8 @@ class WhittedTracer {
     if (branch.depth >= max_depth_) return false;
     const PreparedMaterial& prepared = scene_.materials[material.value()];
     if (prepared.use == PreparedMaterial::Use::matt) {
-      const MattSurface surface = matt_at(prepared, hit, to_viewer);
+      const MattSurface surface =
+          tracer_.timed(RenderStage::materials, [&] { return matt_at(prepared, hit, to_viewer); });
       meet(branch, hit, surface, surface.shading, material);
       return false;
     }
@@ -102,7 +102,8 @@ class WhittedTracer {
     if (many) {
       tracer_.count(ir::Effect::many_lights);
       const double u = sampler_.get_1d(dimension::bounce(branch.depth) + dimension::light_choice);
-      const LightTable::Choice choice = lights.choose(u, {hit.point, normal.vector()});
+      const LightTable::Choice choice = tracer_.timed(
+          RenderStage::lights, [&] { return lights.choose(u, {hit.point, normal.vector()}); });
       if (choice.probability > 0) {
         sum = tracer_.direct(hit, surface, choice.light, branch.depth, sampler_, whole) *
               (1 / choice.probability);
@@ -130,7 +131,8 @@ class WhittedTracer {
 
   // The next ray of the branch; the weaker of two waits.
   bool follow(Branch& branch, const Hit& hit, const Bsdf& bsdf, ir::MaterialId material) {
-    SpecularRays rays = followed(specular_rays(bsdf));
+    SpecularRays rays =
+        followed(tracer_.timed(RenderStage::materials, [&] { return specular_rays(bsdf); }));
     if (rays.count == 0) return false;
     if (rays.count == 2 &&
         max_component(rays.rays[0].weight) < max_component(rays.rays[1].weight)) {
@@ -167,6 +169,7 @@ class WhittedTracer {
                ir::MaterialId material) const {
     branch.throughput *= next.weight;
     branch.ray = spawn_ray(hit, next.wi);
+    branch.kind = next.transmitted ? RayKind::refracted : RayKind::reflected;
     if (next.transmitted)
       cross(tracer_, branch.media, material, bsdf.entering);
     else

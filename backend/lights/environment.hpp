@@ -35,6 +35,11 @@ class Environment {
   [[nodiscard]] Choice sample(Sample2 u) const;
   [[nodiscard]] double pdf(const Vector3& direction) const;
 
+  // Bytes of its tables; the image is an asset.
+  [[nodiscard]] std::uint64_t memory() const {
+    return (rows_.capacity() + columns_.capacity()) * sizeof(double);
+  }
+
  private:
   [[nodiscard]] Sample2 uv_of(const Vector3& direction) const;
   void build_tables();

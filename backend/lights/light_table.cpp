@@ -63,6 +63,16 @@ double spot_share(const DeltaLight& light, const Vector3& travel) {
   return t * t * (3 - 2 * t);
 }
 
+std::uint64_t LightTable::memory() const {
+  std::uint64_t bytes = deltas.capacity() * sizeof(DeltaLight) +
+                        emitters.capacity() * sizeof(Emitter) +
+                        environments.capacity() * sizeof(Environment) +
+                        (power_.capacity() + cumulative_.capacity()) * sizeof(double) +
+                        leaf_.capacity() * sizeof(std::uint32_t) + tree_.memory();
+  for (const Environment& environment : environments) bytes += environment.memory();
+  return bytes;
+}
+
 void LightTable::finish(double scene_radius, LightSelection selection) {
   const double disk = pi * scene_radius * scene_radius;
   power_.clear();

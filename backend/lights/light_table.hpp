@@ -86,6 +86,7 @@ class LightTable {
   [[nodiscard]] bool sample(std::size_t light, const Point3& from, Sample2 u,
                             LightSample& out) const;
   [[nodiscard]] Rgb environment_radiance(const Vector3& direction) const;
+  [[nodiscard]] std::uint64_t memory() const;  // bytes
 
  private:
   [[nodiscard]] static bool sample_delta(const DeltaLight& light, const Point3& from,

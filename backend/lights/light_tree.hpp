@@ -60,6 +60,10 @@ class LightTree {
   // More levels than this are never built, so a way down fits into 64 bits.
   static constexpr int most_levels = 60;
 
+  [[nodiscard]] std::uint64_t memory() const {
+    return nodes_.capacity() * sizeof(Node) + trails_.capacity() * sizeof(std::uint64_t);
+  }
+
  private:
   // What `importance` reads, ready for use. Children of a node stand beside each other.
   struct Node {

@@ -83,6 +83,12 @@ Pyramid::Pyramid(const DecodedImage& image, bool srgb) : srgb_(srgb) {
   }
 }
 
+std::uint64_t Pyramid::memory() const {
+  std::uint64_t bytes = sizeof *this;
+  for (const DecodedImage& level : levels_) bytes += sizeof level + memory_of(level);
+  return bytes;
+}
+
 std::uint64_t Pyramid::memory_for(const DecodedImage& image) {
   std::uint64_t texels = 0;
   std::uint32_t width = image.width;

@@ -30,6 +30,7 @@ class Pyramid {
   [[nodiscard]] TextureValue lookup(const DecodedImage& image, const TexturePlace& at,
                                     ir::Wrap wrap) const;
 
+  [[nodiscard]] std::uint64_t memory() const;  // bytes
   // Bytes that one takes, before it is made.
   [[nodiscard]] static std::uint64_t memory_for(const DecodedImage& image);
 

@@ -126,6 +126,15 @@ TextureEvaluator::TextureEvaluator(const ir::Scene& scene,
     }
   }
 }
+std::uint64_t TextureEvaluator::memory() const {
+  std::uint64_t bytes = 0;
+  for (const auto& [asset, pyramids] : pyramids_) {
+    for (const Pyramid* one : {pyramids.srgb.get(), pyramids.linear.get()})
+      bytes += one != nullptr ? one->memory() : 0;
+  }
+  return bytes;
+}
+
 TextureEvaluator::~TextureEvaluator() = default;
 
 TextureValue TextureEvaluator::image(const ir::ImageTexture& texture, const TexturePlace& at,

@@ -63,6 +63,7 @@ class TextureEvaluator {
   }
   // Whether any texture looks at the widths of places.
   [[nodiscard]] bool wants_widths() const { return !pyramids_.empty(); }
+  [[nodiscard]] std::uint64_t memory() const;  // bytes of what it made of the images
 
  private:
   // Of a picture, taken as colour (with the sRGB curve) and as it is; null: not asked for.

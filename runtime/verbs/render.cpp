@@ -23,6 +23,7 @@
 #include "runtime/settings.hpp"
 #include "runtime/signals.hpp"
 #include "runtime/stats.hpp"
+#include "runtime/stats_sources.hpp"
 #include "runtime/verbs.hpp"
 
 namespace scenec::runtime {
@@ -67,8 +68,9 @@ class RenderRun {
         options_.stats_file.empty() || check_output(options_.stats_file, session_.sink());
     const bool others_fit = check_outputs(options_, session_.sink());
     if (!format || !stats_fit || !others_fit) return refuse_output();
+    const std::uint64_t before = tells_stats() ? allocated_bytes() : 0;
     const auto scene = session_.load_and_compile(pool_);
-    clock_.finish("compile");
+    finish_compiling(session_, before, clock_, stats_);
     if (!scene) return session_.finish(environment_);
     const auto settings = settings_of(options_, *scene, environment_);
     if (!settings) return ExitCode::usage;
@@ -140,10 +142,17 @@ class RenderRun {
     picture.complete = complete;
     stats_.error = session.error();
     clock_.finish("render");
+    if (tells_stats() && complete) {
+      stats_.profile = backend::profile_of(*built, settings, effects, pool_, session.samples());
+      clock_.finish("profile");
+    }
+    add_memory(backend::memory_use_of(prepared, *built), session.memory(), keeper.memory(), stats_);
     const ExitCode code = write(scene, settings, effects, picture, format);
     if (code == ExitCode::ok && complete) keeper.finish(session, state);
     return told_of(keeper) ? ExitCode::file_error : code;
   }
+
+  [[nodiscard]] bool tells_stats() const { return options_.stats != StatsForm::none; }
 
   // Goes on from the checkpoint when that is asked for; false: it cannot (said).
   bool take_up(backend::RenderSession& session, const ir::RenderSettings& settings,
@@ -211,16 +220,7 @@ class RenderRun {
   }
 
   std::optional<ExitCode> write_stats(const backend::Picture& picture) {
-    stats_.rays = picture.rays;
-    for (std::size_t i = 0; i < ir::effect_count; ++i) {
-      if (picture.effect_runs[i] == 0) continue;
-      stats_.effect_runs.emplace_back(ir::name_of(static_cast<ir::Effect>(i)),
-                                      picture.effect_runs[i]);
-    }
-    stats_.samples = picture.samples;
-    stats_.pixels = std::int64_t{picture.width} * picture.height;
-    stats_.dropped_samples = picture.dropped_samples;
-    stats_.saturated_samples = picture.saturated_samples;
+    add_picture(picture, stats_);
     if (cache_) stats_.cache = cache_->counts();
     if (options_.stats == StatsForm::table) environment_.err << stats_table(stats_);
     if (options_.stats != StatsForm::json) return std::nullopt;

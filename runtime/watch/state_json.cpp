@@ -36,8 +36,8 @@ Json findings_json(const Attempt& attempt) {
 
 Json phases_json(const Attempt& attempt) {
   Json list = Json::array();
-  for (const auto& [name, seconds] : attempt.stats.phases)
-    list.push_back({{"name", name}, {"ms", seconds * 1000}});
+  for (const RunStats::Phase& phase : attempt.stats.phases)
+    list.push_back({{"name", phase.name}, {"ms", phase.seconds * 1000}});
   return list;
 }
 

@@ -1,0 +1,8 @@
+#include "backend/integrators/tile-inl.hpp"
+
+namespace scenec::backend {
+
+template bool render_tile<ir::Method::phong, kernel_masks::phong_probing>(
+    const TileJob&, Film&, const Tile&, const SampleRange&, KernelWorker&, const std::stop_token&);
+
+}  // namespace scenec::backend
