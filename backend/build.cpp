@@ -52,6 +52,7 @@ RenderScenePtr build(const PreparedScene& prepared, ThreadPool& pool, const Buil
                                        scene->ggx_albedo ? &*scene->ggx_albedo : nullptr);
   add_items(prepared, *scene, pool, options);
   add_lights(prepared, *scene);
+  add_casters(*scene);
   build_world(scene->accel, pool, options);
   if (options.trees != nullptr) options.trees->drop_unused();
   const Bounds3 bounds = scene->accel.bounds();

@@ -35,6 +35,9 @@ void build_world(SceneAccel& world, ThreadPool& pool, const BuildOptions& option
 // Adds the lights, their shapes, and every emissive item that can be sampled.
 void add_lights(const PreparedScene& prepared, RenderScene& scene);
 
+// Finds the spheres that throw light, after materials, items and lights are known.
+void add_casters(RenderScene& scene);
+
 // The emitters of one shape, in the order of Hit::primitive; empty: cannot be sampled.
 [[nodiscard]] std::vector<Emitter> emitters_of(const RenderScene& scene, const ir::ShapeRef& shape,
                                                const Transform& world_from_object);

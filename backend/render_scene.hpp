@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "backend/accel/scene_accel.hpp"
+#include "backend/lights/casters.hpp"
 #include "backend/lights/light_table.hpp"
 #include "backend/materials/prepared_material.hpp"
 #include "backend/prepared_scene.hpp"
@@ -39,6 +40,7 @@ struct RenderScene {
   SceneAccel accel;
   std::vector<RenderItem> items;
   LightTable lights;
+  CasterTable casters;
   // First emitter of emissive items inside instances, by path_key.
   std::unordered_map<std::uint64_t, std::uint32_t> instanced_emitters;
   // `.path`: paths of fewer bounces never end by chance. Has no influence on the mean.

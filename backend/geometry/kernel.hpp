@@ -40,8 +40,8 @@ struct ShapeHit {
   double b = 0;
 };
 
-// How much of a surface is wanted: texture coordinates cost angles, which light alone needs none of.
-// `where_textured`: on items that were said to need them.
+// How much of a surface is wanted: texture coordinates cost angles, which light alone needs none
+// of. `where_textured`: on items that were said to need them.
 enum class HitDetail : std::uint8_t { place, where_textured, texture };
 
 // The surface at a hit, in the shape's own space. Normals point to the outer side (winding, or
@@ -116,23 +116,29 @@ inline constexpr double spawn_safety = 4;
 [[nodiscard]] inline Ray spawn_ray(const Hit& hit, const Vector3& direction) {
   return {offset_origin(hit.point, hit.error, hit.geometric_normal, direction), direction};
 }
-// The open segment from a hit to a point (a point light): t_max is just below 1.
-[[nodiscard]] inline Ray spawn_segment(const Hit& hit, const Point3& target) {
+// What of a hit a segment needs, or a place on a surface that no ray has found.
+struct SurfacePoint {
+  Point3 point;
+  Vector3 error;  // bound on the distance from the surface, an axis at a time
+  UnitVector3 normal;
+};
+[[nodiscard]] inline SurfacePoint surface_point(const Hit& hit) {
+  return {hit.point, hit.error, hit.geometric_normal};
+}
+// The open segment to a point (a point light): t_max is just below 1.
+[[nodiscard]] inline Ray spawn_segment(const SurfacePoint& from, const Point3& target) {
   constexpr double before_one = 1 - 0x1p-53;
-  const Point3 origin =
-      offset_origin(hit.point, hit.error, hit.geometric_normal, target - hit.point);
+  const Point3 origin = offset_origin(from.point, from.error, from.normal, target - from.point);
   return {origin, target - origin, 0, before_one};
 }
-// The segment from a hit to a sampled point of another surface: both ends leave their surface.
-[[nodiscard]] inline Ray spawn_segment(const Hit& hit, const Point3& target,
-                                       const Vector3& target_error,
-                                       const UnitVector3& target_normal) {
-  const Vector3 way = hit.point - target;
+// The segment between places of two surfaces: both ends leave their surface.
+[[nodiscard]] inline Ray spawn_segment(const SurfacePoint& from, const SurfacePoint& target) {
+  const Vector3 way = from.point - target.point;
   // The target's kernel will see the segment from afar: its roundings are those of coordinates
   // relative to the origin, as long as the way (numerics anchors, finding 1).
   const double seen = length(way) * gamma(8);
-  const Vector3 error = target_error + Vector3{seen, seen, seen};
-  return spawn_segment(hit, offset_origin(target, error, target_normal, way));
+  const Vector3 error = target.error + Vector3{seen, seen, seen};
+  return spawn_segment(from, offset_origin(target.point, error, target.normal, way));
 }
 
 }  // namespace scenec::backend

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "backend/integrators/casters-inl.hpp"
 #include "backend/integrators/surface.hpp"
 #include "base/elementary.hpp"
 
@@ -36,6 +37,8 @@ class PathTracer {
       : tracer_(tracer),
         scene_(tracer.scene()),
         sampler_(sampler),
+        casters_(tracer, sampler),
+        asks_casters_(casters_.asked_for()),
         max_depth_(static_cast<std::uint64_t>(
             tracer.settings().max_depth.value_or(std::int64_t{1} << 32))) {}
 
@@ -98,7 +101,9 @@ class PathTracer {
       out_.first = first_hit_of(hit, surface, normal, material);
     const bool lit = !scattered_ || with<ir::Effect::interreflection>();
     if (lit && has_smooth_part(surface)) add_direct(hit, surface, normal);
-    return scatter(hit, surface, normal, material) && survives();
+    const bool aims = asks_casters_ && lit && has_smooth_part(surface) && media_.empty();
+    if (aims) add_thrown(hit, surface);
+    return scatter(hit, surface, normal, material, aims) && survives();
   }
 
   // The density of aiming at a light among all.
@@ -133,7 +138,10 @@ class PathTracer {
     if (is_black(emitted)) return;
     if (scattered_) tracer_.count(ir::Effect::area_lights);
     double weight = 1;
-    if (!specular_) {
+    if (asks_casters_ && (chain_.state == CasterChain::State::mirrored ||
+                          chain_.state == CasterChain::State::through)) {
+      weight = weight_of_thrown(hit);
+    } else if (!specular_) {
       const std::uint32_t emitter = scene_.emitter_of(hit);
       if (emitter != RenderItem::none) {
         const LightTable& lights = scene_.lights;
@@ -176,10 +184,30 @@ class PathTracer {
                  (1 / choice.probability);
   }
 
+  // How much of what the path finds the viewer gets.
+  [[nodiscard]] double worth() const { return smaller(1, max_component(throughput_) * eta_scale_); }
+
+  // Light of lamps by way of smooth spheres.
+  template <class Surface>
+  void add_thrown(const Hit& hit, const Surface& surface) {
+    const auto weight = [&](double aimed, double by_chance) {
+      return weight_of_aiming(scene_.lights.finding, aimed, by_chance);
+    };
+    radiance_ +=
+        throughput_ * casters_.aimed(hit, surface, depth_, max_depth_ - depth_, worth(), weight);
+  }
+  // Of a lamp that was met by way of a caster.
+  [[nodiscard]] double weight_of_thrown(const Hit& lamp) const {
+    const std::uint32_t emitter = scene_.emitter_of(lamp);
+    if (emitter == RenderItem::none) return 1;
+    return weight_of_chance(scene_.lights.finding, casters_.by_chance(chain_),
+                            casters_.density(chain_, emitter, lamp, ray_.direction));
+  }
+
   bool survives() {
     if (is_black(throughput_)) return false;
     if (depth_ <= scene_.sure_bounces) return true;
-    const double p = smaller(longest_survival, max_component(throughput_) * eta_scale_);
+    const double p = smaller(longest_survival, worth());
     if (!(sampler_.get_1d(dimension::bounce(depth_ - 1) + dimension::roulette) < p)) return false;
     throughput_ *= 1 / p;
     return true;
@@ -204,7 +232,7 @@ class PathTracer {
 
   template <class Surface>
   bool scatter(const Hit& hit, const Surface& surface, const UnitVector3& normal,
-               ir::MaterialId material) {
+               ir::MaterialId material, bool aims) {
     const std::uint32_t base = dimension::bounce(depth_);
     constexpr bool one_lobe = std::is_same_v<Surface, MattSurface>;
     const double lobe = one_lobe ? 0 : sampler_.get_1d(base + dimension::lobe);
@@ -212,12 +240,14 @@ class PathTracer {
       return sample_bsdf(surface, lobe, sampler_.get_2d(base + dimension::direction));
     });
     if (is_black(s.weight) || !follows(s)) return false;
+    const double worth_before = worth();
     throughput_ *= s.weight;
     eta_scale_ *= s.eta_scale;
     scatter_pdf_ = s.pdf;
     specular_ = s.specular;
     scattered_ = scattered_ || !s.specular;
     scatter_place_ = lit_place(hit, surface, normal);
+    if (asks_casters_) casters_.follow(chain_, hit, s, surface.entering, aims, worth_before, ray_);
     ray_ = spawn_ray(hit, s.wi);
     kind_ = kind_of(s);
     if (s.transmitted) cross(tracer_, media_, material, surface.entering);
@@ -241,6 +271,8 @@ class PathTracer {
   const Tracer<compiled>& tracer_;
   const RenderScene& scene_;
   const Sampler& sampler_;
+  CasterLight<compiled> casters_;
+  bool asks_casters_;
   std::uint64_t max_depth_;
   Ray ray_;
   RayKind kind_ = RayKind::camera;
@@ -253,6 +285,7 @@ class PathTracer {
   bool scattered_ = false;  // some direction before could have been
   LitPlace scatter_place_;  // where it started
   std::uint32_t depth_ = 0;
+  CasterChain chain_;
   MediumStack media_;
   TracedSample out_;
 };

@@ -82,6 +82,10 @@ class Tracer {
   [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t depth, const Sampler& sampler) const {
     if (!with<ir::Effect::shadows>()) return false;
     count(ir::Effect::shadows);
+    return hidden(ray, depth, sampler);
+  }
+  // As above where it is no matter of shadows: for ways that a path could take itself.
+  [[nodiscard]] bool hidden(const Ray& ray, std::uint32_t depth, const Sampler& sampler) const {
     counters_.count(RayKind::shadow);
     if (!filters_) return any(ray, {});
     const auto keep = [&](const Hit& candidate) {
@@ -204,10 +208,10 @@ class Tracer {
                                      const Sampler& sampler) const {
     if (light.infinite)
       return occluded(spawn_ray(hit, light.wi), depth, sampler) ? Rgb{} : light.radiance;
-    const Ray segment =
-        light.emitter != nullptr
-            ? spawn_segment(hit, light.target, light.target_error, light.target_normal)
-            : spawn_segment(hit, light.target);
+    const Ray segment = light.emitter != nullptr
+                            ? spawn_segment(surface_point(hit),
+                                            {light.target, light.target_error, light.target_normal})
+                            : spawn_segment(surface_point(hit), light.target);
     if (occluded(segment, depth, sampler)) return {};
     if (light.emitter == nullptr || !light.emitter->textured) return light.radiance;
     return textured_radiance(hit, light);

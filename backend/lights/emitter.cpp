@@ -26,12 +26,6 @@ Vector3 point_error(const Emitter& e) {
          gamma(8);
 }
 
-struct AreaPoint {
-  Point3 point;
-  Vector3 normal;  // not unit
-  double pdf = 0;  // per area
-};
-
 AreaPoint ellipsoid_point(const Emitter& e, Sample2 u) {
   const UnitVector3 w = sample_uniform_sphere(u);
   const Vector3 n = cross(e.b, e.c) * w.x() + cross(e.c, e.a) * w.y() + cross(e.a, e.b) * w.z();
@@ -48,44 +42,6 @@ AreaPoint tube_point(const Emitter& e, Sample2 u) {
   const double jacobian = 2 * pi * length(n);
   return {e.origin + (e.a * angle.cos + e.b * angle.sin + e.c * u.v), n,
           jacobian > 0 ? 1 / jacobian : 0};
-}
-
-AreaPoint area_point(const Emitter& e, Sample2 u) {
-  switch (e.shape) {
-    case EmitterShape::sphere:
-    case EmitterShape::cut_sphere: {
-      const Vector3 w = sample_uniform_sphere(u).vector();
-      return {e.origin + w * e.radius, w, 1 / sphere_area(e.radius)};
-    }
-    case EmitterShape::ellipsoid:
-      return ellipsoid_point(e, u);
-    case EmitterShape::tube:
-      return tube_point(e, u);
-    default:  // flat shapes are sampled in the header
-      return {};
-  }
-}
-
-// The density per area at a point the emitter was hit at.
-double area_pdf(const Emitter& e, const Point3& point, const UnitVector3& normal) {
-  if (e.shape == EmitterShape::ellipsoid) {
-    // |cofactor(M) w| from the unit normal n = cofactor(M) w / |...|: |M^T n| |cofactor(M) w| =
-    // det.
-    const double det = std::fabs(dot(cross(e.a, e.b), e.c));
-    const Vector3 back{dot(e.a, normal), dot(e.b, normal), dot(e.c, normal)};
-    return pdf_uniform_sphere() * length(back) / det;
-  }
-  if (e.shape == EmitterShape::tube) {
-    // The angle of the point in the base's own coordinates.
-    const Vector3 n = cross(e.a, e.b);
-    const double scale = dot(n, e.c);
-    const Vector3 p = point - e.origin;
-    const double x = dot(cross(e.b, e.c), p) / scale;
-    const double y = dot(cross(e.c, e.a), p) / scale;
-    const double r = std::sqrt(x * x + y * y);
-    return 1 / (2 * pi * length(cross(e.b * (x / r) - e.a * (y / r), e.c)));
-  }
-  return 1 / sphere_area(e.radius);
 }
 
 double solid_angle_pdf(double area_density, const Vector3& way, const UnitVector3& normal) {
@@ -142,6 +98,44 @@ EmitterSample cone_sample(const Emitter& e, const Point3& from, double sin2, Sam
 
 }  // namespace
 
+AreaPoint sample_area(const Emitter& e, Sample2 u) {
+  switch (e.shape) {
+    case EmitterShape::sphere:
+    case EmitterShape::cut_sphere: {
+      const Vector3 w = sample_uniform_sphere(u).vector();
+      return {e.origin + w * e.radius, w, 1 / sphere_area(e.radius)};
+    }
+    case EmitterShape::ellipsoid:
+      return ellipsoid_point(e, u);
+    case EmitterShape::tube:
+      return tube_point(e, u);
+    default:
+      if (!(e.area > 0)) return {};
+      return {emitter_detail::flat_point(e, u), e.normal, 1 / e.area};
+  }
+}
+
+double area_pdf(const Emitter& e, const Point3& point, const UnitVector3& normal) {
+  if (e.shape == EmitterShape::ellipsoid) {
+    // |cofactor(M) w| from the unit normal n = cofactor(M) w / |...|: |M^T n| |cofactor(M) w| =
+    // det.
+    const double det = std::fabs(dot(cross(e.a, e.b), e.c));
+    const Vector3 back{dot(e.a, normal), dot(e.b, normal), dot(e.c, normal)};
+    return pdf_uniform_sphere() * length(back) / det;
+  }
+  if (e.shape == EmitterShape::tube) {
+    // The angle of the point in the base's own coordinates.
+    const Vector3 n = cross(e.a, e.b);
+    const double scale = dot(n, e.c);
+    const Vector3 p = point - e.origin;
+    const double x = dot(cross(e.b, e.c), p) / scale;
+    const double y = dot(cross(e.c, e.a), p) / scale;
+    const double r = std::sqrt(x * x + y * y);
+    return 1 / (2 * pi * length(cross(e.b * (x / r) - e.a * (y / r), e.c)));
+  }
+  return 1 / (is_sphere(e) ? sphere_area(e.radius) : e.area);
+}
+
 void cut_by_plane(Emitter& e, const Vector3& normal, double offset) {
   if (!is_sphere(e)) return;
   const double size = length(normal);
@@ -181,7 +175,7 @@ void measure(Emitter& e) {
       // Only weighs the choice between lights: the mean over a fixed grid will do.
       double sum = 0;
       for (int i = 0; i < 64; ++i) {
-        const AreaPoint p = area_point(e, {(i % 8 + 0.5) / 8, (i / 8 + 0.5) / 8});
+        const AreaPoint p = sample_area(e, {(i % 8 + 0.5) / 8, (i / 8 + 0.5) / 8});
         if (p.pdf > 0) sum += 1 / p.pdf;
       }
       e.area = sum / 64;
@@ -207,7 +201,7 @@ bool sample_curved(const Emitter& e, const Point3& from, Sample2 u, EmitterSampl
       return true;
     }
   }
-  const AreaPoint p = cap ? cap_point(e, u) : area_point(e, u);
+  const AreaPoint p = cap ? cap_point(e, u) : sample_area(e, u);
   const Vector3 way = p.point - from;
   if (!(p.pdf > 0) || !(length_squared(way) > 0)) return false;
   out.point = p.point;

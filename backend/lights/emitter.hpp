@@ -74,7 +74,25 @@ struct EmitterSample {
   double pdf = 0;      // per solid angle at the reference point
 };
 
+// A point of the surface by itself, whatever it is seen from.
+struct AreaPoint {
+  Point3 point;
+  Vector3 normal;  // outer side, not unit
+  double pdf = 0;  // per area; 0: none
+};
+[[nodiscard]] AreaPoint sample_area(const Emitter& emitter, Sample2 u);
+// The density with which sample_area gives a point, whose outer normal is `normal`.
+[[nodiscard]] double area_pdf(const Emitter& emitter, const Point3& point,
+                              const UnitVector3& normal);
+
 namespace emitter_detail {
+// The place of a flat shape for two numbers in [0, 1).
+[[nodiscard]] inline Point3 flat_point(const Emitter& e, Sample2 u) {
+  const Sample2 at = e.shape == EmitterShape::parallelogram ? u
+                     : e.shape == EmitterShape::triangle    ? sample_uniform_triangle(u)
+                                                            : sample_concentric_disk(u);
+  return e.origin + (e.a * at.u + e.b * at.v);
+}
 [[nodiscard]] bool sample_curved(const Emitter& emitter, const Point3& from, Sample2 u,
                                  EmitterSample& out);
 [[nodiscard]] double pdf_curved(const Emitter& emitter, const Point3& from, const Point3& point,
@@ -91,10 +109,7 @@ namespace emitter_detail {
                                          EmitterSample& out) {
   if (!is_flat(e.shape)) return emitter_detail::sample_curved(e, from, u, out);
   if (!(e.area > 0)) return false;
-  const Sample2 at = e.shape == EmitterShape::parallelogram ? u
-                     : e.shape == EmitterShape::triangle    ? sample_uniform_triangle(u)
-                                                            : sample_concentric_disk(u);
-  out.point = e.origin + (e.a * at.u + e.b * at.v);
+  out.point = emitter_detail::flat_point(e, u);
   const Vector3 way = out.point - from;
   const double distance = length(way);
   if (!(distance > 0)) return false;

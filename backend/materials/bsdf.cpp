@@ -297,6 +297,10 @@ BsdfSample sample_bsdf(const Bsdf& b, double lobe, Sample2 u) {
   return absorbed();
 }
 
+Rgb smooth_reflectance(const Bsdf& b, double cos_i) {
+  return b.kind == BsdfKind::mirror ? b.specular : facet_reflectance(b, cos_i);
+}
+
 SpecularRays specular_rays(const Bsdf& b) {
   SpecularRays out;
   const auto add = [&](const BsdfSample& s) {

@@ -96,6 +96,9 @@ struct BsdfSample {
 // Whether evaluate() can give anything but 0.
 [[nodiscard]] bool has_smooth_part(const Bsdf& bsdf);
 
+// What a smooth mirror or metal reflects of light whose angle of incidence has this cosine.
+[[nodiscard]] Rgb smooth_reflectance(const Bsdf& bsdf, double cos_i);
+
 // The exactly specular directions with their weights, for a tracer that follows all of them.
 struct SpecularRay {
   Vector3 wi;

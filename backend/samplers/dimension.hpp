@@ -19,6 +19,7 @@ inline constexpr std::uint32_t lobe = 5;          // 1
 inline constexpr std::uint32_t roulette = 6;      // 1
 inline constexpr std::uint32_t material_mix = 7;  // 1
 inline constexpr std::uint32_t opacity = 8;       // keyed further by the surface hit
+inline constexpr std::uint32_t caster = 9;        // 1
 inline constexpr std::uint32_t per_bounce = 10;
 
 [[nodiscard]] constexpr std::uint32_t bounce(std::uint32_t depth) {

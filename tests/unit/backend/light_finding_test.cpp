@@ -133,6 +133,49 @@ std::vector<Make> scenes() {
   };
 }
 
+// Smooth spheres that throw light on a matt floor: what is aimed at by way of them.
+std::vector<Make> thrown() {
+  const auto quad = [](double radiance) {
+    return ir::QuadLight{{-0.5, 3, -0.5}, {1, 0, 0}, {0, 0, 1}, radiance, {}, true, ir::white};
+  };
+  const auto tinted = [](SceneKit& kit) {
+    ir::Dielectric glass;
+    glass.tint.value = {0.9, 0.7, 0.8};
+    glass.absorption = {0.1, 0.4, 0.2};
+    return kit.material(glass);
+  };
+  return {
+      [=](SceneKit& kit) {  // a mirror ball on the floor, two lamps of unlike shapes and powers
+        kit.place(ir::Sphere{{0, 0.8, 0}, {0.8}}, kit.material(ir::Mirror{}));
+        kit.light(quad(3));
+        kit.light(ir::SphereLight{{1.5, 1.5, 1}, {0.4}, 5.0, {}, true, ir::white});
+      },
+      [=](SceneKit& kit) {  // tinted glass, another glass and a gold ball beside it
+        kit.place(ir::Sphere{{-0.7, 0.6, 0}, {0.6}}, tinted(kit));
+        kit.place(ir::Sphere{{0.6, 0.9, 0.2}, {0.5}}, kit.material(ir::Dielectric{}));
+        ir::Conductor gold;
+        gold.preset = ir::ConductorPreset::gold;
+        gold.roughness.value = 0;
+        kit.place(ir::Sphere{{0.2, 0.3, 1.1}, {0.3}}, kit.material(gold));
+        kit.light(quad(4));
+      },
+      [=](SceneKit& kit) {  // matt things in and before the glass, a lamp that is passed unseen
+        kit.place(ir::Sphere{{0, 1, 0}, {0.8}}, tinted(kit));
+        kit.place(ir::Sphere{{0.2, 1.1, 0.1}, {0.2}}, kit.matt(0.7));
+        kit.place(ir::Sphere{{0.5, 0.4, 0.7}, {0.25}}, kit.matt(0.7));
+        kit.light(quad(4));
+        kit.light(ir::SphereLight{{1.5, 2.5, 1}, {0.5}, 3.0, {}, false, ir::white});
+      },
+      [=](SceneKit& kit) {  // spheres that overlap, one moved and scaled; an emissive item as lamp
+        const ir::MaterialId glass = kit.material(ir::Dielectric{});
+        kit.place(ir::Sphere{{-0.3, 0.7, 0}, {0.6}}, glass);
+        kit.place(ir::Sphere{{0, 0, 0}, {1}}, glass,
+                  kit.transform({0.5, 0, 0, 0.4, 0, 0.5, 0, 0.7, 0, 0, 0.5, 0.1, 0, 0, 0, 1}));
+        kit.place(ir::Quad{{-1, 2.5, 1}, {0, 0, -1}, {1.5, 0, 0}}, kit.glowing(4));
+      },
+  };
+}
+
 TEST(LightFinding, EveryWayHasTheSameMean) {
   const std::vector<Make> all = scenes();
   const double trials = static_cast<double>(all.size()) * 2 * tiles * tiles;
@@ -151,6 +194,37 @@ TEST(LightFinding, EveryWayHasTheSameMean) {
           "scene " + std::to_string(number) + " way " + std::to_string(static_cast<int>(one)));
     }
   }
+}
+
+TEST(LightFinding, LightThrownBySpheresHasTheSameMeanAndLessNoise) {
+  const std::vector<Make> all = thrown();
+  const double level = 1 - std::pow(1 - 0.01, 1 / static_cast<double>(all.size() * tiles * tiles));
+  const auto noise = [](const std::vector<Moments>& moments) {
+    double sum = 0;
+    for (const Moments& m : moments) sum += m.variance_of_mean;
+    return sum;
+  };
+  double log_ratios = 0;
+  for (std::size_t number = 0; number < all.size(); ++number) {
+    SceneKit kit;
+    kit.place(floor_quad(), kit.matt(0.6));
+    all[number](kit);
+    finish_scene(kit);
+    // The floor beside the spheres, where what they throw is most of the noise.
+    kit.pinhole({2.4, 1.6, 2.2}, {0.9, 0, 0.9}, 30);
+    kit.settings.samples = 128;
+    Ready ready(kit.finish());
+    ASSERT_FALSE(ready.built->casters.empty()) << "scene " << number;
+    const auto aimed = tile_moments(ready, 0);
+    ready.built->casters = {};
+    const auto met = tile_moments(ready, 50);
+    expect_same_means(aimed, met, level, "thrown, scene " + std::to_string(number));
+    const double ratio = noise(met) / noise(aimed);
+    std::printf("scene %zu: variance %.1f times where it is met by chance\n", number, ratio);
+    log_ratios += std::log(ratio);
+  }
+  // Over all, as other noise than that of thrown light is in every picture.
+  EXPECT_GT(log_ratios / static_cast<double>(all.size()), std::log(1.3));
 }
 
 // How many bounces are sure costs time and noise, no light.

@@ -330,7 +330,7 @@ TEST(SceneAccel, ShadowSegmentsEndBeforeTheirTarget) {
         Ray{floor.point + Vector3{0, 0.1, 0}, Point3{draw.between(-0.5, 0.5), 5, 0} - floor.point},
         light));
     EXPECT_FALSE(
-        accel.occluded(spawn_segment(floor, light.point, light.error, light.geometric_normal)))
+        accel.occluded(spawn_segment(surface_point(floor), surface_point(light))))
         << i;
   }
 }

@@ -73,11 +73,12 @@ TEST(cut_sphere, nothing_aimed_at_from_below_is_hidden_by_the_plane) {
       ASSERT_TRUE(s);
       EXPECT_NEAR(pdf_emitter(cut, from, s->point, s->normal), s->pdf, 1e-9 * s->pdf);
       if (dot(s->wi, s->normal) >= 0) continue;  // beyond the horizon of the cap
-      EXPECT_FALSE(world.occluded(spawn_segment(floor, s->point, s->error, s->normal)));
+      EXPECT_FALSE(
+          world.occluded(spawn_segment(surface_point(floor), {s->point, s->error, s->normal})));
       const auto by_cone = sample_emitter(whole, from, grid(i, 20));
       ASSERT_TRUE(by_cone);
-      whole_blocked +=
-          world.occluded(spawn_segment(floor, by_cone->point, by_cone->error, by_cone->normal));
+      whole_blocked += world.occluded(
+          spawn_segment(surface_point(floor), {by_cone->point, by_cone->error, by_cone->normal}));
     }
   }
   EXPECT_GT(whole_blocked, 900) << "the cone is as good: the test shows nothing";

@@ -87,7 +87,8 @@ TEST(LightEdges, OnlyWhatStandsNearerThanTheLightShadowsIt) {  // P07
       EmitterSample s;
       s.point = {0, nearest, 0};
       s.normal = normalized(Vector3{0, -1, 0});
-      EXPECT_EQ(world.occluded(spawn_segment(floor, s.point, e.error, s.normal)), relative < 0)
+      EXPECT_EQ(world.occluded(spawn_segment(surface_point(floor), {s.point, e.error, s.normal})),
+                relative < 0)
           << size;
     }
   }
