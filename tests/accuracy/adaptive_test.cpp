@@ -245,8 +245,8 @@ Reached reach_truly(const Subject& subject, const Even& even, std::int64_t seed,
 TEST(Adaptive, SlowNeedsFewerSamplesByTheTrueError) {
   constexpr const char* names[] = {"knot",    "glossy-row", "globe",      "cornell",
                                    "mapping", "leaves",     "still-life", "caustic-glass"};
-  constexpr std::int64_t samples = 2048;
-  constexpr int renders = 4;
+  constexpr std::int64_t samples = 1024;
+  constexpr int renders = 3;
   ThreadPool pool;
   double log_samples = 0;
   double log_seconds = 0;

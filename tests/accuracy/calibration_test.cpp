@@ -162,8 +162,8 @@ void expect_coverage(int seeds, std::int64_t samples, int stop_seeds) {
   std::printf("%lld spp: inside %d below %d of %d: %.2f %%\n", static_cast<long long>(samples),
               all.inside, all.below, all.cases, 100 * all.part());
   std::printf("stops kept %d of %d\n", stops.kept, stops.cases);
-  // What is reached; docs/accuracy.md says what is aimed at and which scenes are in the way.
-  EXPECT_GE(all.part(), 0.90);
+  // Of all scenes together; docs/accuracy.md says which hold less.
+  EXPECT_GE(all.part(), 0.93);
   EXPECT_LE(all.part(), 0.97);
   EXPECT_GE(stops.kept, 0.95 * stops.cases);
   EXPECT_EQ(stops.too_few, 0);
