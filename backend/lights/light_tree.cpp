@@ -26,6 +26,18 @@ double sine_of(double cosine) {
   return std::sqrt(larger(0, 1 - cosine * cosine));
 }
 
+// From a place to a box, `way` to its centre.
+double distance_to_box(const Vector3& way, const Vector3& half) {
+  const Vector3 a = abs(way);
+  const Vector3 out{larger(0, a.x - half.x), larger(0, a.y - half.y), larger(0, a.z - half.z)};
+  return std::sqrt(length_squared(out));
+}
+// No direction to a point of the box has a larger cosine with the unit vector `n`; `along`: n .
+// way.
+double cos_within_box(double along, const Vector3& n, const Vector3& half, double nearest) {
+  return std::clamp((along + dot(abs(n), half)) / nearest, 0.0, 1.0);
+}
+
 // The smallest cone round two (Barequet and Elber 2005).
 void unite_cones(LightCluster& a, const LightCluster& b) {
   const double spread_a = clamped_acos(a.cos_spread);
@@ -241,7 +253,8 @@ LightTree::LightTree(std::vector<Leaf> leaves) {
 LightTree::Node LightTree::node_of(const LightCluster& c) {
   Node n;
   n.center = c.box.centroid();
-  n.radius2 = length_squared(c.box.extent()) / 4;
+  n.half = c.box.extent() * 0.5;
+  n.radius2 = length_squared(n.half);
   n.axis = c.axis;
   n.cos_spread = c.cos_spread;
   n.sin_spread = sine_of(c.cos_spread);
@@ -269,13 +282,23 @@ double LightTree::importance(const Node& n, const LitPlace& place) {
   // What is left of the angle to the axis beyond the spread, then beyond what the cluster fills.
   const double cos_beyond = cos_of_difference(cos_axis, sin_axis, n.cos_spread, n.sin_spread);
   const double sin_beyond = sin_of_difference(cos_axis, sin_axis, n.cos_spread, n.sin_spread);
-  const double cos_least = cos_of_difference(cos_beyond, sin_beyond, cos_seen, sin_seen);
+  double cos_least = cos_of_difference(cos_beyond, sin_beyond, cos_seen, sin_seen);
+  const double nearest = distance_to_box(way, n.half);
+  if (nearest > 0) {
+    const double facing = n.two_sided ? std::fabs(dot(n.axis, way)) : -dot(n.axis, way);
+    const double cos_box = cos_within_box(facing, n.axis, n.half, nearest);
+    cos_least = smaller(cos_least,
+                        cos_of_difference(cos_box, sine_of(cos_box), n.cos_spread, n.sin_spread));
+  }
   if (!(cos_least > n.cos_fall)) return 0;
   // Over the whole sphere of directions the fall is no cosine: such lights give as much all round.
   double result = n.power * (n.cos_spread <= -1 ? 1 : larger(cos_least, 0)) / distance2;
   if (!(place.normal == Vector3{0, 0, 0})) {
     const double cos_in = dot(place.normal, way) * inverse;
-    const double cos_best = cos_of_difference(cos_in, sine_of(cos_in), cos_seen, sin_seen);
+    double cos_best = cos_of_difference(cos_in, sine_of(cos_in), cos_seen, sin_seen);
+    if (nearest > 0)
+      cos_best =
+          smaller(cos_best, cos_within_box(dot(place.normal, way), place.normal, n.half, nearest));
     result *= larger(cos_best, 0);
   }
   return result;

@@ -5,6 +5,8 @@
 // Method:     Conty Estevez and Kulla 2018: clusters with a box, a cone of emitting directions and
 //             a sum of power, split where the sum of power times area times solid angle is least; a
 //             child is chosen in proportion to an upper bound of what it can give to the place.
+//             Cosines are bounded by the cluster's sphere and by its box, whichever is tighter: a
+//             flat box far off, as lamps of a ceiling are, is seen under a small angle only.
 //             Distances are held above the cluster's radius, so that a place within it does not
 //             see one light only.
 // Error:      the probabilities of all lights for a place sum to at most 1 within depth * 4 u: a
@@ -68,7 +70,8 @@ class LightTree {
   // What `importance` reads, ready for use. Children of a node stand beside each other.
   struct Node {
     Point3 center;
-    double radius2 = 0;
+    Vector3 half;        // of the box's extent
+    double radius2 = 0;  // of the sphere round it
     Vector3 axis;
     double cos_spread = -1, sin_spread = 0;
     double cos_fall = 0;

@@ -44,6 +44,26 @@ def main():
 Scenes that come with scenec, in `stdlib-scenes/showcase/`, each rendered by the command beneath it.
 `tests/unit/runtime/showcase_test.cpp` holds every scene to the effects it is there to show;
 `stdlib-scenes/showcase/make_gallery.py` renders the pictures and writes this page.
+
+## What a first renderer of this kind can do
+
+| feature | scene, in `stdlib-scenes/` | test, in `tests/` |
+|---|---|---|
+| Phong ray casting | `showcase/phong.sdl` | `unit/backend/render_test.cpp`: `render.phong_pixel_equals_the_hand_computed_one` |
+| Whitted's reflection, refraction, shadows | `showcase/whitted.sdl` | `unit/backend/render_edges_test.cpp`: `RenderEdges.CentralRayThroughAGlassBallHasTheClosedForm` |
+| paths: matt, mirror, glass, glossy | `showcase/still-life.sdl` | `unit/backend/render_test.cpp`: `render.white_objects_vanish_in_a_white_furnace` |
+| aiming at point lights | `showcase/whitted.sdl` | `unit/backend/render_test.cpp`: `render.point_light_over_a_plane_follows_the_closed_form` |
+| aiming at directional lights | `showcase/landscape.sdl` | `unit/backend/lights/light_edges_test.cpp`: `LightEdges.ASunIsShadowedFromAnyDistance` |
+| aiming at balls of light | `showcase/many-lights.sdl` | `unit/backend/render_test.cpp`: `LampOverFloor.gives_the_closed_form` |
+| Cook and Torrance's facets, GGX | `showcase/glossy-row.sdl` | `unit/backend/materials/furnace_test.cpp`: `Furnace.SingleScatteringIsThatOfTheReferenceTable` |
+| supersampling, tent filter | `showcase/cornell.sdl` | `unit/backend/film/film_test.cpp`: `Filters.sample_their_own_shape_about_the_centre` |
+| textures on plane, sphere, revolve, triangle | `showcase/mapping.sdl` | `numerics/derivative_cases.cpp`: `G27Surface.IsWhatItSays` |
+| leaves cut out by alpha | `showcase/leaves.sdl` | `unit/backend/render_test.cpp`: `render.opacity_and_cutout_hold_for_camera_and_shadow_rays` |
+| interpolated normals | `showcase/knot.sdl` | `unit/backend/render_edges_test.cpp`: `RenderEdges.NoLightPassesASurfaceWhateverItsVertexNormals` |
+| depth of field | `showcase/depth-of-field.sdl` | `unit/backend/render_edges_test.cpp`: `RenderEdges.BlurHasTheDiameterOfTheCircleOfConfusion` |
+| boxes and a tree | `showcase/landscape.sdl` | `unit/backend/accel/scene_accel_test.cpp`: `SceneAccel.AgreesWithBruteForce` |
+| revolution by Newton | `showcase/newton.sdl` | `numerics/revolve_cases.cpp`: `R03.NewtonMissesRoots` |
+| all cores busy, same bytes | `showcase/landscape.sdl` | `unit/backend/render_test.cpp`: `render.bytes_do_not_depend_on_threads` |
 ''']
     for scene, samples in PICTURES:
         text, (width, height) = head_of(scene)

@@ -1,9 +1,10 @@
-// scenec-bench: `rays ...` replays recorded rays, `scaling` measures trees of growing meshes;
-// anything else goes to Google Benchmark.
+// scenec-bench: `rays ...` replays recorded rays, `scaling` measures trees of growing meshes,
+// `lights` what the choice among lights brings; anything else goes to Google Benchmark.
 #include <benchmark/benchmark.h>
 
 #include <string_view>
 
+#include "tests/bench/lights.hpp"
 #include "tests/bench/rays.hpp"
 #include "tests/bench/scaling.hpp"
 
@@ -12,6 +13,8 @@ int main(int argc, char** argv) {
     return scenec::bench::run_rays(argc - 2, argv + 2);
   if (argc > 1 && std::string_view(argv[1]) == "scaling")
     return scenec::bench::run_scaling(argc - 2, argv + 2);
+  if (argc > 1 && std::string_view(argv[1]) == "lights")
+    return scenec::bench::run_lights(argc - 2, argv + 2);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

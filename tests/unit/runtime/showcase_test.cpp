@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <initializer_list>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -119,6 +121,37 @@ TEST(Showcase, EveryPictureOfThePageHasItsScene) {
     EXPECT_NE(page.find("images/gallery/" + scene.stem().string() + ".png"), std::string::npos)
         << scene;
   }
+}
+
+// The words between back quotes.
+std::vector<std::string> quoted_of(const std::string& line) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; (at = line.find('`', at)) != std::string::npos;) {
+    const std::size_t end = line.find('`', at + 1);
+    if (end == std::string::npos) break;
+    words.push_back(line.substr(at + 1, end - at - 1));
+    at = end + 1;
+  }
+  return words;
+}
+
+// The table of features: each row's scene is there, and so is its test.
+TEST(Showcase, EveryFeatureOfTheTableHasItsSceneAndItsTest) {
+  const std::filesystem::path root = test::source_directory();
+  std::istringstream page(test::text_of_file(root / "docs/gallery.md"));
+  int rows = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| ") || line.starts_with("| feature")) continue;
+    const std::vector<std::string> words = quoted_of(line);
+    ASSERT_EQ(words.size(), 3u) << line;
+    ++rows;
+    EXPECT_TRUE(std::filesystem::exists(root / "stdlib-scenes" / words[0])) << line;
+    const std::string tests = test::text_of_file(root / "tests" / words[1]);
+    const std::size_t dot = words[2].find('.');
+    const std::string name = "(" + words[2].substr(0, dot) + ", " + words[2].substr(dot + 1) + ")";
+    EXPECT_NE(tests.find(name), std::string::npos) << line;
+  }
+  EXPECT_EQ(rows, 15);
 }
 
 }  // namespace
