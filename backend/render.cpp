@@ -14,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // A round should end in time for a checkpoint, a look or a stop by time.
-constexpr double longest_round = 1.5;
+constexpr double longest_round = 3;
 // An estimate for the progress line may take this part of the time.
 constexpr double share_of_estimates = 0.005;
 
@@ -62,10 +62,12 @@ class Renderer {
 
   StopReason run() {
     while (session_.samples() < cap_) {
-      const std::int64_t look = std::min(cap_, next_look(session_.samples()));
-      if (!advance(std::min(look - session_.samples(), longest_count()))) {
+      const std::int64_t done = session_.samples();
+      const std::int64_t look = settings_.stop.error ? std::min(cap_, next_look(done)) : cap_;
+      // Long rounds, as each one visits the sums of every pixel anew; short ones at first, when what
+      // a sample takes is little known.
+      if (!advance(std::min({look - done, longest_count(), std::max<std::int64_t>(1, done)})))
         return StopReason::request;
-      }
       if (hooks_.between) hooks_.between();
       if (session_.samples() == look && error_is_reached()) return StopReason::error;
       if (settings_.stop.time && state_.seconds >= settings_.stop.time->value)
