@@ -93,6 +93,7 @@ void complete(const ItemPath& path, const Ray& world_ray, const ShapeHit& found,
   hit.primitive = found.part;
   hit.instance_count = path.size - 1;
   for (std::uint32_t i = 0; i + 1 < path.size; ++i) hit.instances[i] = path.steps[i].item->item;
+  hit.uncertified = leaf.item->kind == ShapeKind::revolve && !is_certified(found);
   const bool barycentric =
       leaf.item->kind == ShapeKind::triangle || leaf.item->kind == ShapeKind::mesh;
   hit.b1 = barycentric ? found.a : 0;

@@ -39,6 +39,8 @@ Film::Pixel Film::open(std::size_t x, std::size_t y) {
 }
 
 void Film::Pixel::add(std::int64_t number, const FilmSample& sample) {
+  if (sample.first.uncertified && film_->distrust_.kept())
+    ++film_->distrust_.next[index_].uncertified;
   if (!is_finite(sample.radiance)) {
     film_->refused_.dropped.fetch_add(1, std::memory_order_relaxed);
     if (film_->distrust_.kept()) ++film_->distrust_.next[index_].dropped;

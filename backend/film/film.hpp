@@ -27,6 +27,7 @@ namespace scenec::backend {
 // What the camera ray of a sample met; for the extra layers.
 struct FirstHit {
   bool hit = false;
+  bool uncertified = false;  // the root of the ray and the surface
   Rgb albedo;
   Vector3 normal{0, 0, 0};
   Point3 position;
@@ -136,10 +137,11 @@ class Film {
     }
     void swap() { done.swap(next); }
   };
-  // Samples of a pixel that the sums do not hold as they were.
+  // Samples of a pixel that the sums do not hold as they were, or that look at a place not proven.
   struct Distrust {
-    std::uint32_t dropped = 0;    // not finite
-    std::uint32_t saturated = 0;  // beyond what a sum holds
+    std::uint32_t dropped = 0;      // not finite
+    std::uint32_t saturated = 0;    // beyond what a sum holds
+    std::uint32_t uncertified = 0;  // the camera ray's first hit
   };
   struct Refused {
     std::atomic<std::uint64_t> dropped{0};    // not finite

@@ -1,7 +1,10 @@
 // The extra layers of a picture. Values of surfaces are means over the samples that hit one; where
 // none did they are 0. `variance` is that of the pixel's mean; 0 where it is not known.
 // `trust` counts the samples that are not in the pixel as they were: `trust.dropped` were not
-// finite and were left out, `trust.saturated` were beyond what a sum holds and were cut.
+// finite and were left out, `trust.saturated` were beyond what a sum holds and were cut; and those
+// whose camera ray first met a surface where it is not proven to, `trust.uncertified`. There is no
+// count of hits of a surface by a ray leaving it: rays start outside the error of their origin, so
+// none is refused.
 #include <algorithm>
 #include <cmath>
 
@@ -79,6 +82,8 @@ void Film::append_layers(Picture& picture) const {
                [&](std::size_t i) { return static_cast<double>(distrust_.at(i).dropped); });
         append(picture, "trust.saturated", n,
                [&](std::size_t i) { return static_cast<double>(distrust_.at(i).saturated); });
+        append(picture, "trust.uncertified", n,
+               [&](std::size_t i) { return static_cast<double>(distrust_.at(i).uncertified); });
         break;
     }
   }

@@ -69,6 +69,8 @@ struct Hit {
   std::uint32_t instance_count = 0;
   // The caller's numbers of the instances around the shape, outermost first.
   std::array<std::uint32_t, max_instances> instances{};
+  // Not proven where the ray meets the shape: see geometry/revolve.hpp.
+  bool uncertified = false;
   double b1 = 0;  // barycentric weights of vertices 1 and 2 (triangles and meshes)
   double b2 = 0;
   Point3 point;

@@ -12,7 +12,8 @@
 //             origin's size; a ray lying in the surface for a whole
 //             interval reports a point near the interval's nearest end; at most 4096 pieces a
 //             segment; negative radii count as their absolute value; a pole's normal is that of its
-//             limit tangent.
+//             limit tangent. Hits for which no piece was proven monotone, and all of a ray whose
+//             pieces ran out, say that they are not certified.
 // Proof:      tests/numerics/revolve_cases.cpp (R01 - R19).
 #pragma once
 
@@ -91,11 +92,16 @@ class Revolve {
   RootFinder finder_ = RootFinder::certified;
 };
 
-// `part` is the segment, `a` the curve parameter in [0, 1] within it.
+// `part` is the segment, `a` the curve parameter in [0, 1] within it, `b` is 0 where the root is
+// certified and 1 where it is not.
 [[nodiscard]] bool intersect(const Revolve& revolve, const Ray& ray, ShapeHit& out);
-// As above by the damped Newton iteration, whatever the surface's own finder: see its file.
+[[nodiscard]] inline bool is_certified(const ShapeHit& hit) {
+  return hit.b == 0;
+}
+// As above by the damped Newton iteration, whatever the surface's own finder: see its file. No hit
+// of it is certified.
 [[nodiscard]] bool intersect_by_newton(const Revolve& revolve, const Ray& ray, ShapeHit& out);
-// Every hit of the closed interval, sorted by t; always certified.
+// Every hit of the closed interval, sorted by t, whatever the surface's own finder.
 void intersect_all(const Revolve& revolve, const Ray& ray, std::vector<ShapeHit>& out);
 [[nodiscard]] Bounds3 bounds(const Revolve& revolve);
 // u the angle about the axis / 2 pi (as on a sphere), v along the whole profile in [0, 1].

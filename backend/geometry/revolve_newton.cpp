@@ -72,7 +72,7 @@ bool intersect_by_newton(const Revolve& revolve, const Ray& ray, ShapeHit& out) 
       if (!(t >= ray.t_min && t <= nearest) || std::isinf(t)) continue;
       if (found && t == nearest) continue;
       nearest = t;
-      out = {t, static_cast<std::uint32_t>(i), s, 0};
+      out = {t, static_cast<std::uint32_t>(i), s, 1};  // not certified
       found = true;
     }
   }

@@ -19,6 +19,9 @@ constexpr int max_piece_depth = 48;
 constexpr int max_pieces = 4096;
 // Newton within a bracket converges quadratically and falls back to halving.
 constexpr int max_root_steps = 80;
+// What a hit's `b` says of its root: see revolve.hpp.
+constexpr double certified = 0;
+constexpr double uncertified = 1;
 
 struct Range {
   double low = -infinity;
@@ -151,6 +154,7 @@ class Solver {
       search(whole, 0, both_branches);
     }
     if (!found_) return false;
+    if (cut_short_) doubt_all();
     out = best_;
     return true;
   }
@@ -212,7 +216,10 @@ class Solver {
   }
 
   void search(const Piece& piece, int depth, Branches branches) {
-    if (++pieces_ > max_pieces) return;
+    if (++pieces_ > max_pieces) {
+      cut_short_ = true;
+      return;
+    }
     const Hull hull = hull_of(piece);
     const double outer = std::max(std::fabs(hull.radius.low), std::fabs(hull.radius.high)) + slack_;
     const double inner =
@@ -344,7 +351,7 @@ class Solver {
     if (a_ == 0 || branches != both_branches)
       t = std::clamp(local_t(t_min_), reach.low, reach.high);
     if (d_.y != 0) t = (piece.at(0.5).point.height - o_.y) / d_.y;
-    accept(piece.start + 0.5 * piece.width, t, both_branches);
+    accept(piece.start + 0.5 * piece.width, t, both_branches, uncertified);
   }
 
   struct Residual {
@@ -384,7 +391,7 @@ class Solver {
     }
   }
 
-  void accept(double s, double local, Branches branches) {
+  void accept(double s, double local, Branches branches, double proof = certified) {
     const bool far = local > middle_;
     if (branches != both_branches && (branches & (far ? far_branch : near_branch)) == 0) return;
     Residual r = residual(s, local);
@@ -392,7 +399,7 @@ class Solver {
     if (!(size_of(r) <= 4 * slack_)) return;
     const double t = ray_t(local);
     if (!(t >= t_min_ && t <= t_max_) || std::isinf(t)) return;
-    const ShapeHit hit{t, static_cast<std::uint32_t>(segment_), s, 0};
+    const ShapeHit hit{t, static_cast<std::uint32_t>(segment_), s, proof};
     if (all_ != nullptr) {
       add_to_all(hit);
       found_ = true;
@@ -403,6 +410,13 @@ class Solver {
     found_ = true;
     t_max_ = t;
     narrow_window();
+  }
+
+  // A nearer root may be in a piece that was not looked at.
+  void doubt_all() {
+    best_.b = uncertified;
+    if (all_ == nullptr) return;
+    for (ShapeHit& h : *all_) h.b = uncertified;
   }
 
   // The same point may be found from both pieces at a joint.
@@ -432,6 +446,7 @@ class Solver {
   double closest_ = 0;  // and its distance
   std::size_t segment_ = 0;
   int pieces_ = 0;
+  bool cut_short_ = false;  // the pieces ran out
   ShapeHit best_;
   bool found_ = false;
 };

@@ -71,9 +71,8 @@ TraceJob trace_job(const RenderScene& scene, const ir::RenderSettings& settings,
                                ? HitDetail::texture
                            : textured ? HitDetail::where_textured
                                       : HitDetail::place;
-  const bool first = layers_need(settings, [](ir::Aov aov) {
-    return aov != ir::Aov::variance && aov != ir::Aov::samples && aov != ir::Aov::trust;
-  });
+  const bool first = layers_need(
+      settings, [](ir::Aov aov) { return aov != ir::Aov::variance && aov != ir::Aov::samples; });
   return {scene, settings, effects, detail, first, {}};
 }
 

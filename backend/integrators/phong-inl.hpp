@@ -51,6 +51,7 @@ TracedSample trace_phong(const Tracer<compiled>& tracer, const Ray& ray, const S
     out.radiance += phong_shade(terms, n, to_viewer, to_light, value);
   }
   out.first.hit = true;
+  out.first.uncertified = hit.uncertified;
   out.first.albedo = terms.diffuse;
   out.first.normal = n;
   out.first.position = hit.point;

@@ -270,6 +270,7 @@ template <class Surface>
                                     const UnitVector3& normal, ir::MaterialId material) {
   FirstHit first;
   first.hit = true;
+  first.uncertified = hit.uncertified;
   first.albedo = albedo_of(surface);
   first.normal = normal.vector();
   first.position = hit.point;

@@ -125,20 +125,30 @@ TEST(film, the_layer_trust_says_which_pixels_are_not_as_they_were_computed) {
   settings.size = {2, 1};
   settings.aovs = {ir::Aov::trust};
   Film film(settings);
+  const auto unproven = [](double radiance) {
+    FilmSample sample = sample_of(radiance);
+    sample.first.hit = sample.first.uncertified = true;
+    return sample;
+  };
   give(film, 0, 0, 0,
        {sample_of(3), sample_of(std::numeric_limits<double>::quiet_NaN()),
         sample_of(-std::numeric_limits<double>::infinity()), sample_of(1e30)});
-  give(film, 1, 0, 0, {sample_of(1), sample_of(1), sample_of(1), sample_of(1)});
+  // A sample that is left out was looked at a place not proven all the same.
+  give(
+      film, 1, 0, 0,
+      {sample_of(1), unproven(1), unproven(std::numeric_limits<double>::quiet_NaN()), unproven(1)});
   film.finish_round(4);
   Film other(settings);
   ASSERT_TRUE(other.restore(film.save()));
   for (const Picture& picture : {film.picture(), other.picture()}) {
-    ASSERT_EQ(picture.layers.size(), 2U);
+    ASSERT_EQ(picture.layers.size(), 3U);
     EXPECT_EQ(picture.layers[0].first, "trust.dropped");
-    EXPECT_EQ(picture.layers[0].second, (std::vector<float>{2, 0}));
+    EXPECT_EQ(picture.layers[0].second, (std::vector<float>{2, 1}));
     EXPECT_EQ(picture.layers[1].first, "trust.saturated");
     EXPECT_EQ(picture.layers[1].second, (std::vector<float>{1, 0}));
-    EXPECT_EQ(picture.dropped_samples, 2U);
+    EXPECT_EQ(picture.layers[2].first, "trust.uncertified");
+    EXPECT_EQ(picture.layers[2].second, (std::vector<float>{0, 3}));
+    EXPECT_EQ(picture.dropped_samples, 3U);
     EXPECT_EQ(picture.saturated_samples, 1U);
   }
 }

@@ -304,5 +304,45 @@ TEST(Revolve, DegenerateProfilesEnd) {
   EXPECT_NEAR(hit.t, 2, 1e-14);
 }
 
+TEST(Revolve, RootsSayWhetherTheyAreCertified) {
+  const Points points{{1, 0}, {2, 0.7}, {0.2, 1.3}, {1, 2}};
+  const Revolve vase(bezier_profile(points));
+  const Revolve by_newton(bezier_profile(points), Axis::y, RootFinder::newton);
+  Draw draw(31);
+  int certified = 0;
+  int guessed = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Ray ray = ray_kinds()[static_cast<std::size_t>(i) % ray_kinds().size()].second(draw);
+    ShapeHit hit;
+    if (intersect(vase, ray, hit)) {
+      ++certified;
+      EXPECT_TRUE(is_certified(hit)) << i;
+    }
+    if (intersect(by_newton, ray, hit)) {
+      ++guessed;
+      EXPECT_FALSE(is_certified(hit)) << i;
+    }
+  }
+  EXPECT_GT(certified, 2000);
+  EXPECT_GT(guessed, 1000);
+}
+
+TEST(Revolve, RootsThatNoPieceProvesAreNotCertified) {
+  const Revolve cylinder(bezier_profile(quadrics()[0].profile));
+  const Ray touching{{1.5, 1, -5}, {0, 0, 1}};  // one point: the pieces become too narrow
+  const Ray within{{1.5, -1, 0}, {0, 1, 0}};    // a whole line: they run out, too
+  const Ray through{{1.4, 1, -5}, {0, 0, 1}};
+  std::vector<ShapeHit> hits;
+  for (const auto& [ray, proven] :
+       {std::pair{touching, false}, std::pair{within, false}, std::pair{through, true}}) {
+    ShapeHit hit;
+    ASSERT_TRUE(intersect(cylinder, ray, hit));
+    EXPECT_EQ(is_certified(hit), proven);
+    intersect_all(cylinder, ray, hits);
+    ASSERT_FALSE(hits.empty());
+    for (const ShapeHit& h : hits) EXPECT_EQ(is_certified(h), proven);
+  }
+}
+
 }  // namespace
 }  // namespace scenec::backend
