@@ -30,7 +30,8 @@ MemoryUse memory_use_of(const PreparedScene& prepared, const RenderScene& scene)
   use.accelerators = scene.accel.memory();
   // A map's entry: key, value, link.
   constexpr std::uint64_t map_entry = 32;
-  use.shading = scene.lights.memory() + scene.materials.capacity() * sizeof(PreparedMaterial) +
+  use.shading = scene.lights.memory() + scene.casters.memory() +
+                scene.materials.capacity() * sizeof(PreparedMaterial) +
                 scene.items.capacity() * sizeof(RenderItem) +
                 (scene.ggx_albedo ? sizeof(GgxAlbedo) : 0) +
                 scene.instanced_emitters.size() * map_entry;

@@ -64,8 +64,8 @@ class Renderer {
     while (session_.samples() < cap_) {
       const std::int64_t done = session_.samples();
       const std::int64_t look = settings_.stop.error ? std::min(cap_, next_look(done)) : cap_;
-      // Long rounds, as each one visits the sums of every pixel anew; short ones at first, when what
-      // a sample takes is little known.
+      // Long rounds, as each one visits the sums of every pixel anew; short ones at first, when
+      // what a sample takes is little known.
       if (!advance(std::min({look - done, longest_count(), std::max<std::int64_t>(1, done)})))
         return StopReason::request;
       if (hooks_.between) hooks_.between();

@@ -85,7 +85,7 @@ class RecordingFileSystem final : public FileSystem {
   Result<FileContent, FileError> read(const std::string& path, std::uint64_t size_limit) override;
   bool is_file(const std::string& path) override;
   std::string reason_of(FileError error) const override { return inner_.reason_of(error); }
-  [[nodiscard]] std::vector<FileRecord> records() const;  // sorted by path, one a path
+  [[nodiscard]] std::vector<FileRecord> records() const;               // sorted by path, one a path
   [[nodiscard]] double seconds() const { return reading_.seconds(); }  // of reading and hashing
 
  private:

@@ -33,7 +33,8 @@ class CasterLight {
 
   [[nodiscard]] bool asked_for() const {
     if constexpr ((compiled & bit_of(ir::Effect::caustics)) == 0) return false;
-    return tracer_.template with<ir::Effect::caustics>() && !scene_.casters.empty() &&
+    return tracer_.template with<ir::Effect::caustics>() &&
+           tracer_.template with<ir::Effect::area_lights>() && !scene_.casters.empty() &&
            scene_.lights.finding != LightFinding::chance;
   }
 

@@ -54,6 +54,10 @@ class CasterTable {
   [[nodiscard]] bool empty() const { return casters_.empty(); }
   [[nodiscard]] const std::vector<Caster>& all() const { return casters_; }
   [[nodiscard]] const Caster& operator[](std::uint32_t caster) const { return casters_[caster]; }
+  [[nodiscard]] std::uint64_t memory() const {
+    return casters_.capacity() * sizeof(Caster) + of_item_.capacity() * sizeof(std::uint32_t) +
+           (power_.capacity() + cumulative_.capacity()) * sizeof(double);
+  }
   // The caster an item is, or none.
   [[nodiscard]] std::uint32_t of_item(std::uint32_t item) const {
     return item < of_item_.size() ? of_item_[item] : none;

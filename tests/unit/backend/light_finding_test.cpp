@@ -227,6 +227,29 @@ TEST(LightFinding, LightThrownBySpheresHasTheSameMeanAndLessNoise) {
   EXPECT_GT(log_ratios / static_cast<double>(all.size()), std::log(1.3));
 }
 
+// What a picture is simulated without comes by no other way either.
+TEST(LightFinding, NothingIsThrownWithoutTheEffectsThatThrow) {
+  for (const ir::Effect left_out :
+       {ir::Effect::area_lights, ir::Effect::caustics, ir::Effect::reflection}) {
+    SceneKit kit;
+    kit.place(floor_quad(), kit.matt(0.6));
+    thrown().front()(kit);
+    finish_scene(kit);
+    Ready ready(kit.finish());
+    ThreadPool pool(1);
+    ir::EffectSet effects = find_effects(*ready.built, ready.scene.render).simulated();
+    effects.remove(left_out);
+    const auto picture = [&] {
+      return render(*ready.built, ready.scene.render, effects, pool, {}, {});
+    };
+    ASSERT_FALSE(ready.built->casters.empty());
+    const Picture aimed = picture();
+    EXPECT_EQ(aimed.effect_runs[static_cast<std::size_t>(left_out)], 0u);
+    ready.built->casters = {};
+    EXPECT_EQ(aimed.rgb, picture().rgb) << name_of(left_out);
+  }
+}
+
 // How many bounces are sure costs time and noise, no light.
 TEST(Roulette, HasNoInfluenceOnTheMean) {
   const double level = 1 - std::pow(1 - 0.01, 1.0 / (2 * tiles * tiles));

@@ -329,9 +329,7 @@ TEST(SceneAccel, ShadowSegmentsEndBeforeTheirTarget) {
     ASSERT_TRUE(accel.intersect(
         Ray{floor.point + Vector3{0, 0.1, 0}, Point3{draw.between(-0.5, 0.5), 5, 0} - floor.point},
         light));
-    EXPECT_FALSE(
-        accel.occluded(spawn_segment(surface_point(floor), surface_point(light))))
-        << i;
+    EXPECT_FALSE(accel.occluded(spawn_segment(surface_point(floor), surface_point(light)))) << i;
   }
 }
 

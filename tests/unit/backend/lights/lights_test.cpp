@@ -126,7 +126,9 @@ TEST(emitter, no_light_stands_in_its_own_way_however_far) {  // P07
       floor.point = {distance * (1 + i / 3e4), 0, distance * 0.3};
       const auto s = sample_emitter(e, floor.point, {(i % n + 0.5) / n, (i / n + 0.5) / n});
       ASSERT_TRUE(s);
-      blocked += world.occluded(spawn_segment(surface_point(floor), {s->point, s->error, s->normal})) ? 1 : 0;
+      blocked +=
+          world.occluded(spawn_segment(surface_point(floor), {s->point, s->error, s->normal})) ? 1
+                                                                                               : 0;
     }
     EXPECT_EQ(blocked, 0) << distance;
   }
