@@ -73,6 +73,15 @@ AreaPoint cap_point(const Emitter& e, Sample2 u) {
   return {e.origin + w * e.radius, w, 1 / e.area};
 }
 
+AreaPoint sphere_point(const Emitter& e, Sample2 u) {
+  const Vector3 w = sample_uniform_sphere(u).vector();
+  return {e.origin + w * e.radius, w, 1 / sphere_area(e.radius)};
+}
+
+bool is_on_cap(const Emitter& e, const Point3& point) {
+  return dot(e.a, point - e.origin) >= e.radius - e.b.x;
+}
+
 // Squared sine of the half angle of the cone a sphere fills; nothing when `from` is not outside.
 std::optional<double> cone_of(const Emitter& e, const Point3& from) {
   const double sin2 = e.radius * e.radius / length_squared(e.origin - from);
@@ -101,10 +110,10 @@ EmitterSample cone_sample(const Emitter& e, const Point3& from, double sin2, Sam
 AreaPoint sample_area(const Emitter& e, Sample2 u) {
   switch (e.shape) {
     case EmitterShape::sphere:
-    case EmitterShape::cut_sphere: {
-      const Vector3 w = sample_uniform_sphere(u).vector();
-      return {e.origin + w * e.radius, w, 1 / sphere_area(e.radius)};
-    }
+      return sphere_point(e, u);
+    case EmitterShape::cut_sphere:
+      // The rest is left to chance.
+      return cap_point(e, u);
     case EmitterShape::ellipsoid:
       return ellipsoid_point(e, u);
     case EmitterShape::tube:
@@ -133,7 +142,8 @@ double area_pdf(const Emitter& e, const Point3& point, const UnitVector3& normal
     const double r = std::sqrt(x * x + y * y);
     return 1 / (2 * pi * length(cross(e.b * (x / r) - e.a * (y / r), e.c)));
   }
-  return 1 / (is_sphere(e) ? sphere_area(e.radius) : e.area);
+  if (e.shape == EmitterShape::cut_sphere && !is_on_cap(e, point)) return 0;
+  return 1 / e.area;
 }
 
 void cut_by_plane(Emitter& e, const Vector3& normal, double offset) {
@@ -201,7 +211,8 @@ bool sample_curved(const Emitter& e, const Point3& from, Sample2 u, EmitterSampl
       return true;
     }
   }
-  const AreaPoint p = cap ? cap_point(e, u) : sample_area(e, u);
+  // A cut sphere is a whole one from where more than its cap may be seen.
+  const AreaPoint p = !cap && is_sphere(e) ? sphere_point(e, u) : sample_area(e, u);
   const Vector3 way = p.point - from;
   if (!(p.pdf > 0) || !(length_squared(way) > 0)) return false;
   out.point = p.point;
@@ -215,11 +226,11 @@ bool sample_curved(const Emitter& e, const Point3& from, Sample2 u, EmitterSampl
 double pdf_curved(const Emitter& e, const Point3& from, const Point3& point,
                   const UnitVector3& normal) {
   if (sees_cap_only(e, from)) {
-    const bool on_cap = dot(e.a, point - e.origin) >= e.radius - e.b.x;
-    return on_cap ? backend::solid_angle_pdf(1 / e.area, point - from, normal) : 0;
+    return is_on_cap(e, point) ? backend::solid_angle_pdf(1 / e.area, point - from, normal) : 0;
   }
   if (is_sphere(e)) {
     if (const auto sin2 = cone_of(e, from)) return pdf_uniform_cone(*sin2);
+    return backend::solid_angle_pdf(1 / sphere_area(e.radius), point - from, normal);
   }
   return backend::solid_angle_pdf(area_pdf(e, point, normal), point - from, normal);
 }
